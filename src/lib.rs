@@ -1,0 +1,35 @@
+//! `pathtracer` as a library. The way of the data, which is also the order of the modules:
+//!
+//! ```text
+//! YAML -> scene::SceneDesc -> world::World -> accel::Accelerator -> integrator -> film::Film -> picture
+//! ```
+//!
+//! A module uses only modules above it in this list; `render` and `cli` see everything.
+#![deny(unsafe_code)]
+
+pub mod error;
+pub mod math;
+
+pub mod picture;
+
+pub mod scene;
+
+pub mod geometry;
+
+pub mod accel;
+
+pub mod sampling;
+
+pub mod material;
+
+pub mod world;
+
+pub mod film;
+
+pub mod integrator;
+
+pub mod render;
+
+pub mod output;
+
+pub mod cli;

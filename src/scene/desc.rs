@@ -1,0 +1,195 @@
+//! What the scene file says, resolved to numbers: defaults filled in, file names found, nothing compiled.
+//! Ranges are those of the scene reference in the README; a value of these types has passed them.
+
+use crate::error::Location;
+use crate::math::{DVec3, Rgb};
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// A whole scene file, with the meshes it names.
+#[derive(Clone, Debug)]
+pub struct SceneDesc {
+    /// The file as the user named it.
+    pub file: PathBuf,
+    /// The camera.
+    pub camera: CameraDesc,
+    /// The sky.
+    pub environment: EnvironmentDesc,
+    /// The objects in the order of the file.
+    pub objects: Vec<ObjectDesc>,
+}
+
+/// The camera: thin lens, horizontal field of view.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CameraDesc {
+    /// Centre of the lens.
+    pub position: DVec3,
+    /// Point in the middle of the picture, different from `position`.
+    pub looking_at: DVec3,
+    /// Horizontal field of view between the outer edges of the picture, as a fraction of pi, in (0, 1).
+    pub fov: f64,
+    /// Distance of the sharp plane along the viewing direction, > 0.
+    pub focus_distance: f64,
+    /// Size of the lens.
+    pub aperture: ApertureDesc,
+    /// Roll about the viewing direction in degrees.
+    pub angle: f64,
+}
+
+/// The two ways to say how large the lens is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ApertureDesc {
+    /// `DepthOfField` >= 0: lens radius = this x (width of the view at the focus distance) / 1920.
+    DepthOfField(f64),
+    /// `ApertureRadius` >= 0: the lens radius in scene units.
+    Radius(f64),
+}
+
+/// The gradient sky.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EnvironmentDesc {
+    /// Radiance from the zenith.
+    pub sky: Rgb,
+    /// Radiance from the horizon.
+    pub horizon: Rgb,
+    /// Radiance from the nadir.
+    pub ground: Rgb,
+    /// A factor on all three, >= 0.
+    pub strength: f64,
+}
+
+/// One object.
+#[derive(Clone, Debug)]
+pub struct ObjectDesc {
+    /// The optional `Name`.
+    pub name: Option<String>,
+    /// Where the object stands in the file.
+    pub location: Location,
+    /// Its shape.
+    pub shape: ShapeDesc,
+    /// Its material.
+    pub material: MaterialDesc,
+}
+
+/// The shapes of the format. Rotations are angles in degrees about the world's x, then y, then z axis.
+#[derive(Clone, Debug)]
+pub enum ShapeDesc {
+    /// A sphere.
+    Ball {
+        /// Centre.
+        position: DVec3,
+        /// Radius > 0.
+        radius: f64,
+    },
+    /// A box.
+    Box {
+        /// Centre.
+        position: DVec3,
+        /// Full edge lengths along x (`Depth`), y (`Width`), z (`Height`), each > 0.
+        size: DVec3,
+        /// Angles in degrees.
+        rotation: DVec3,
+    },
+    /// A rectangle in the plane x = 0 before the rotation, its front facing -x.
+    Rectangle {
+        /// Centre.
+        position: DVec3,
+        /// Full length along y, > 0.
+        width: f64,
+        /// Full length along z, > 0.
+        height: f64,
+        /// Angles in degrees.
+        rotation: DVec3,
+    },
+    /// A mesh of triangles from an OBJ file.
+    TriangleMesh {
+        /// The file that was found.
+        file: PathBuf,
+        /// Its content; objects that name the same file share it.
+        mesh: Arc<MeshDesc>,
+        /// Factor > 0.
+        scale: f64,
+        /// Where the origin of the file goes.
+        position: DVec3,
+        /// Angles in degrees.
+        rotation: DVec3,
+        /// How the axes of the file are read.
+        axes: Axes,
+        /// Whether normals of the file shade the surface.
+        smooth: bool,
+    },
+}
+
+/// How the coordinates (x, y, z) of a mesh file become the world's.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Axes {
+    /// (x, -z, y): a rotation.
+    YUp,
+    /// (x, y, z).
+    ZUp,
+    /// (x, z, y): mirrors.
+    SwapYZ,
+}
+
+/// The content of a mesh file. All numbers are finite, all indices in range, no triangle is without area.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MeshDesc {
+    /// Vertex positions.
+    pub positions: Vec<[f64; 3]>,
+    /// Vertex normals of the file, any length but zero.
+    pub normals: Vec<[f32; 3]>,
+    /// Texture coordinates of the file.
+    pub texcoords: Vec<[f32; 2]>,
+    /// Indices into `positions`, three a triangle.
+    pub triangles: Vec<[u32; 3]>,
+    /// Indices into `normals`, one entry a triangle, or empty; `[u32::MAX; 3]` where a face has none.
+    pub normal_indices: Vec<[u32; 3]>,
+    /// Indices into `texcoords`, one entry a triangle, or empty; `[u32::MAX; 3]` where a face has none.
+    pub texcoord_indices: Vec<[u32; 3]>,
+}
+
+/// A material with its optional name.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MaterialDesc {
+    /// The optional `Name`.
+    pub name: Option<String>,
+    /// What it does with light.
+    pub kind: MaterialKind,
+}
+
+/// The materials of the format. Reflectances lie in 0..1.
+#[derive(Clone, Debug, PartialEq)]
+pub enum MaterialKind {
+    /// Lambertian, possibly an area light.
+    Diffuse {
+        /// Reflectance.
+        color: Rgb,
+        /// Emitted radiance (strength x colour); zero means none.
+        emission: Rgb,
+    },
+    /// The lerp lobe.
+    Reflective {
+        /// Reflectance.
+        color: Rgb,
+        /// 1 is a perfect mirror, 0 Lambertian.
+        specularity: f64,
+    },
+    /// A reflective coat over a diffuse base.
+    ClearCoat {
+        /// Reflectance of the base.
+        color: Rgb,
+        /// Probability of the coat.
+        coat: f64,
+        /// Reflectance of the coat.
+        coat_color: Rgb,
+        /// Specularity of the coat.
+        specularity: f64,
+    },
+    /// A smooth dielectric.
+    Refractive {
+        /// Factor at every interface.
+        color: Rgb,
+        /// n outside / n inside, > 0.
+        ratio: f64,
+    },
+}

@@ -1,0 +1,3 @@
+//! What the scene file says.
+
+pub mod desc;

@@ -1,0 +1,2 @@
+//! Makes the meshes under `objects/`.
+fn main() {}

@@ -1,0 +1,1 @@
+//! One test binary; `cargo test TOPIC` runs one topic, named as its module here.
