@@ -60,8 +60,11 @@ impl fmt::Display for Diagnostic {
             write!(f, "\n  --> {location}")?;
             if let Some(line) = &self.source_line {
                 let number = location.line.to_string();
-                let indent: String =
-                    line.chars().take(location.column - 1).map(|c| if c == '\t' { '\t' } else { ' ' }).collect();
+                let indent: String = line
+                    .chars()
+                    .take(location.column - 1)
+                    .map(|c| if c == '\t' { '\t' } else { ' ' })
+                    .collect();
                 write!(f, "\n {number} | {line}\n {:width$} | {indent}^", "", width = number.len())?;
             }
         }
