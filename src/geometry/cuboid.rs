@@ -1,5 +1,6 @@
 //! The box, in f64. (`Box` is taken by the language.)
 
+use super::Rectangle;
 use crate::math::{Bounds, DMat3, DVec3};
 
 /// A box that may be turned.
@@ -74,6 +75,21 @@ impl Cuboid {
             3 => (1.0 - q.x, q.z),
             _ => (1.0 - q.y, q.x),
         }
+    }
+
+    /// A face as a rectangle whose front is outside, with the coordinates of [`Cuboid::face_coordinates`].
+    pub fn face(&self, face: u32) -> Rectangle {
+        let [x, y, z] = [DVec3::X * self.half.x, DVec3::Y * self.half.y, DVec3::Z * self.half.z];
+        let (out, right, up) = match face {
+            0 => (-x, -y, z),
+            1 => (x, y, z),
+            2 => (-y, x, z),
+            3 => (y, -x, z),
+            4 => (-z, -y, x),
+            _ => (z, -y, x),
+        };
+        let r = self.rotation;
+        Rectangle::new(self.center + r * out, r * right, r * up)
     }
 
     /// The box around it, aligned to the world's axes.
