@@ -34,8 +34,8 @@ impl SurfacePoint {
         }
     }
 
-    /// The ray to another surface's point, and its length; `None` if the two are too near to tell a direction. Both
-    /// ends are moved off their surfaces.
+    /// The ray to another surface's point, and its length; `None` if the two are so near that their error bounds hide
+    /// the direction. Both ends are moved off their surfaces.
     pub fn leave_to(&self, target: &SurfacePoint) -> Option<(Ray, f64)> {
         let toward = target.position - self.position;
         let side_here = if toward.dot(self.normal) > 0.0 { self.normal } else { -self.normal };
@@ -43,7 +43,7 @@ impl SurfacePoint {
         let origin = self.beside(side_here);
         let way = target.beside(side_there) - origin;
         let length = way.length();
-        if !(length > 0.0 && length.is_finite()) {
+        if !(way.dot(toward) > 0.0 && length.is_finite()) {
             return None;
         }
         let direction = way / length;

@@ -119,6 +119,9 @@ impl AreaLight {
                 Some((point, cone_pdf(cone.one_minus_cos)))
             }
             LightShape::Rectangle { solid, rectangle } => {
+                if at.point.primitive == PrimitiveId::solid(*solid) {
+                    return None;
+                }
                 let view = SphericalRectangle::new(rectangle, p);
                 let (s, t) = view.sample(u);
                 let offset = rectangle.offset_at(s, t);
@@ -230,7 +233,8 @@ impl VisibleFaces {
         for (face, rectangle) in faces.iter().enumerate() {
             let axis = face / 2;
             let beyond = if face % 2 == 0 { -local[axis] } else { local[axis] } > cuboid.half[axis];
-            if beyond == outside {
+            let own_face = own && rectangle.normal.dot(at.point.normal) > 0.5;
+            if beyond == outside && !own_face {
                 let view = SphericalRectangle::new(rectangle, p);
                 seen.total += view.solid_angle();
                 seen.views[face] = Some(view);
