@@ -1,0 +1,4 @@
+//! What several topics need.
+
+pub(crate) mod double_double;
+pub(crate) mod stats;
