@@ -16,10 +16,12 @@ pub struct ClearCoat {
 }
 
 impl ClearCoat {
+    #[inline]
     pub(super) fn is_delta(&self) -> bool {
         self.coat.is_delta() && self.probability >= 1.0
     }
 
+    #[inline]
     pub(super) fn sample(&self, wo: DVec3, n: DVec3, u: [f64; 3]) -> Scatter {
         let in_coat = u[0] < self.probability;
         let square = [u[1], u[2]];
@@ -40,6 +42,7 @@ impl ClearCoat {
         Scatter { direction, weight, pdf: Pdf::solid_angle(pdf) }
     }
 
+    #[inline]
     pub(super) fn eval(&self, wo: DVec3, n: DVec3, wi: DVec3) -> (Rgb, f64) {
         if self.coat.is_delta() {
             let pdf = (1.0 - self.probability) * diffuse::pdf(n, wi);

@@ -22,6 +22,7 @@ pub struct Fresnel {
 impl Interface {
     /// The interface of a closed object, from `ratio` = n outside / n inside > 0 and whether light is followed
     /// from the outside in.
+    #[inline]
     pub fn new(ratio: f64, entering: bool) -> Interface {
         match entering {
             true => Interface { ratio, contrast: (1.0 - ratio) * (1.0 + ratio) },
@@ -45,6 +46,7 @@ impl Interface {
     ///
     /// With m = n_i / n_t and t the cosine beyond, the usual (cos - t / m) / (cos + t / m) and its like cancel
     /// for m near 1. Their numerators times sums are 1 - m^2 times a factor; this divides by the squared sums.
+    #[inline]
     pub fn at(&self, cos: f64) -> Fresnel {
         let (m, contrast) = (self.ratio, self.contrast);
         if contrast == 0.0 {

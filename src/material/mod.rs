@@ -63,6 +63,7 @@ impl Material {
     /// Samples the direction in which a path goes on, from three numbers in [0, 1): the first selects a part of
     /// the material, the others the direction. `entering` says whether `wo` is on the outer side of the geometry.
     /// None only if `wo` is not above the shading surface (`wo . n <= 0`).
+    #[inline]
     pub fn sample(&self, wo: DVec3, n: DVec3, entering: bool, u: [f64; 3]) -> Option<Scatter> {
         if wo.dot(n) <= 0.0 {
             return None;
@@ -78,6 +79,7 @@ impl Material {
 
     /// (f cos, density) for light from `wi`, of the parts that are no delta. Both are zero for directions that
     /// these parts can't produce.
+    #[inline]
     pub fn eval(&self, wo: DVec3, n: DVec3, wi: DVec3) -> (Rgb, f64) {
         if wo.dot(n) <= 0.0 || wi.dot(n) <= 0.0 {
             return (Rgb::ZERO, 0.0);
@@ -91,6 +93,7 @@ impl Material {
     }
 
     /// Whether all of it is delta, so that no light sample can contribute.
+    #[inline]
     pub fn is_delta(&self) -> bool {
         match self {
             Material::Diffuse(_) => false,
@@ -102,6 +105,7 @@ impl Material {
 }
 
 /// The mirror image of `wo` about `n`.
+#[inline]
 fn mirror(wo: DVec3, n: DVec3) -> DVec3 {
     lift(2.0 * wo.dot(n) * n - wo, n)
 }
@@ -109,6 +113,7 @@ fn mirror(wo: DVec3, n: DVec3) -> DVec3 {
 /// Brings a unit vector that rounding took to the wrong side of the plane of `n` back above it. The step is larger
 /// than the error of a dot product of unit vectors, 3 (1 + 2^-52) 2^-53 < 2^-51, and no larger than such an error
 /// of the direction itself would be after a few bounces.
+#[inline]
 fn lift(w: DVec3, n: DVec3) -> DVec3 {
     const STEP: f64 = 4.0 * f64::EPSILON;
     let height = w.dot(n);

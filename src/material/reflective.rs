@@ -22,10 +22,12 @@ pub struct Reflective {
 }
 
 impl Reflective {
+    #[inline]
     pub(super) fn is_delta(&self) -> bool {
         self.specularity > DELTA_SPECULARITY
     }
 
+    #[inline]
     pub(super) fn sample(&self, wo: DVec3, n: DVec3, u: [f64; 2]) -> Scatter {
         let r = mirror(wo, n);
         let direction = self.sample_direction(r, n, u);
@@ -36,6 +38,7 @@ impl Reflective {
         Scatter { direction, weight: self.color, pdf }
     }
 
+    #[inline]
     pub(super) fn eval(&self, wo: DVec3, n: DVec3, wi: DVec3) -> (Rgb, f64) {
         if self.is_delta() {
             return (Rgb::ZERO, 0.0);
@@ -45,6 +48,7 @@ impl Reflective {
     }
 
     /// A direction of the lobe about the mirror direction `r`, above the plane of `n`.
+    #[inline]
     pub(super) fn sample_direction(&self, r: DVec3, n: DVec3, u: [f64; 2]) -> DVec3 {
         let s = self.specularity;
         if s == 1.0 {
@@ -62,14 +66,16 @@ impl Reflective {
     /// meets it at the distances rho, the roots of rho^2 - 2 s c rho + (s^2 - a^2) with c = w . r; each
     /// contributes the density (n . d) / pi times d(omega_d) / d(omega_w) = rho^2 / (a q), where q is the root of
     /// the discriminant and a d = rho w - s r.
+    #[inline]
     pub(super) fn pdf(&self, r: DVec3, n: DVec3, w: DVec3) -> f64 {
         let (a, s) = (1.0 - self.specularity, self.specularity);
-        // The sine from the cross product: 1 - c^2 would lose all digits in a narrow lobe.
-        let (sin, c) = (w.cross(r).length(), w.dot(r));
-        let discriminant = (a - s * sin) * (a + s * sin);
-        // The sine of unit vectors is good to 2^-51, so this much may be missing at the rim, where the
-        // discriminant is zero and the density has an integrable pole; the floor keeps sampled directions inside.
-        let error = 8.0 * EPSILON * a * s;
+        // The squared sine from the cross product: 1 - c^2 would lose all digits in a narrow lobe.
+        let (sin2, c) = (w.cross(r).length_squared(), w.dot(r));
+        let discriminant = a * a - s * s * sin2;
+        // At the rim of the lobe the discriminant is zero and the density has an integrable pole. There s sin = a,
+        // unit vectors and their cross product are good to 4 EPSILON each, and so this much may be missing; as a
+        // floor it keeps every sampled direction inside.
+        let error = 16.0 * EPSILON * a * s;
         if discriminant < -error {
             return 0.0;
         }

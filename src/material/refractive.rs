@@ -13,6 +13,7 @@ pub struct Refractive {
 }
 
 impl Refractive {
+    #[inline]
     pub(super) fn sample(&self, wo: DVec3, n: DVec3, entering: bool, u: f64) -> Scatter {
         let interface = Interface::new(self.ratio, entering);
         let cos = wo.dot(n).min(1.0);
@@ -27,6 +28,7 @@ impl Refractive {
 
 /// The refracted direction, below the plane of `n`. Snell's law gives -m wo + (m cos - cos_t) n with m = n_i / n_t;
 /// the difference is taken as -(1 - m^2) / (m cos + cos_t), which does not cancel.
+#[inline]
 fn refract(interface: &Interface, wo: DVec3, n: DVec3, cos: f64, cos_t: f64) -> DVec3 {
     if interface.contrast() == 0.0 {
         return -wo;

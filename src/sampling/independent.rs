@@ -27,6 +27,7 @@ impl Sampler for Independent {
 }
 
 /// The middle of one of 2^52 equal cells of (0, 1): exact in f64, never 0, never 1.
+#[inline]
 fn unit(bits: u64) -> f64 {
     ((bits >> 12) as f64 + 0.5) * (1.0 / (1u64 << 52) as f64)
 }

@@ -82,6 +82,7 @@ const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
 /// A bijection of 64 bits in which every bit of the input changes about half of the output's: the finaliser of
 /// SplitMix64 (Steele, Lea, Flood, "Fast Splittable Pseudorandom Number Generators", OOPSLA 2014; constants of
 /// Stafford's variant 13).
+#[inline]
 fn mix(x: u64) -> u64 {
     let x = (x ^ x >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     let x = (x ^ x >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
@@ -89,6 +90,7 @@ fn mix(x: u64) -> u64 {
 }
 
 /// Element `i` of the SplitMix64 stream that starts at `state`.
+#[inline]
 fn stream(state: u64, i: u64) -> u64 {
     mix(state.wrapping_add(i.wrapping_mul(GOLDEN)))
 }

@@ -31,18 +31,24 @@ impl Sampler for Sobol {
         let key = stream(pixel.0, block | u64::from(set));
         let shuffled = owen_hash((index as u32).reverse_bits(), key as u32, (key >> 32) as u32);
 
-        // Per dimension 32 bits to add and 16 bits to multiply by, all independent.
-        let (add01, add23, factors) = (stream(key, 1), stream(key, 2), stream(key, 3));
-        let [x, y, z, w] = reversed_sobol(shuffled);
-        let x = owen_hash(x, add01 as u32, factors as u16 as u32);
-        let y = owen_hash(y, (add01 >> 32) as u32, (factors >> 16) as u16 as u32);
-        let z = owen_hash(z, add23 as u32, (factors >> 32) as u16 as u32);
-        let w = owen_hash(w, (add23 >> 32) as u32, (factors >> 48) as u32);
-
-        let (x, y) = reverse_both(x, y);
-        let (z, w) = reverse_both(z, w);
-        [unit(x), unit(y), unit(z), unit(w)]
+        // Each dimension has 32 bits to add of its own; for given factors the numbers are uniform by them alone,
+        // so the factors may come from the bits that have shuffled the index.
+        let [xy, zw] = reversed_sobol(shuffled);
+        let (add_xy, add_zw) = (stream(key, 1), stream(key, 2));
+        let [x, y] = numbers(xy, add_xy, key as u32);
+        let [z, w] = numbers(zw, add_zw, (key >> 32) as u32);
+        [x, y, z, w]
     }
+}
+
+/// Scrambles two dimensions in reversed bits, the first in the lower half of `points`, and makes numbers of them.
+#[inline]
+fn numbers(points: u64, add: u64, factors: u32) -> [f64; 2] {
+    let low = owen_hash(points as u32, add as u32, factors & 0xffff);
+    let high = owen_hash((points >> 32) as u32, (add >> 32) as u32, factors >> 16);
+    // One reversal of 64 bits costs as much as one of 32, and exchanges the halves.
+    let reversed = (u64::from(high) << 32 | u64::from(low)).reverse_bits();
+    [unit((reversed >> 32) as u32), unit(reversed as u32)]
 }
 
 /// A hash of `x` in which each bit of the result is the bit of `x`, flipped depending on lower bits and on the
@@ -57,31 +63,32 @@ fn owen_hash(x: u32, add: u32, factor: u32) -> u32 {
     x ^ x.wrapping_mul(0x53a2_2864)
 }
 
-/// The first four Sobol dimensions at an index; index and result in reversed bits.
+/// The first four Sobol dimensions at an index, two a word, the earlier one in the lower half; index and result in
+/// reversed bits.
 #[inline]
-fn reversed_sobol(index: u32) -> [u32; 4] {
-    let mut point = [0; 4];
+fn reversed_sobol(index: u32) -> [u64; 2] {
+    let mut points = [0; 2];
     for (digit, table) in GENERATORS.iter().enumerate() {
-        let column = &table[(index >> (4 * digit)) as usize & 15];
-        for (coordinate, bits) in point.iter_mut().zip(column) {
-            *coordinate ^= bits;
-        }
+        let [xy, zw] = table[(index >> (4 * digit)) as usize & 15];
+        points[0] ^= xy;
+        points[1] ^= zw;
     }
-    point
+    points
 }
 
 /// The four generator matrices, multiplied by each value of each hexadecimal digit of a reversed index.
-static GENERATORS: [[[u32; 4]; 16]; 8] = generators();
+static GENERATORS: [[[u64; 2]; 16]; 8] = generators();
 
-const fn generators() -> [[[u32; 4]; 16]; 8] {
+const fn generators() -> [[[u64; 2]; 16]; 8] {
     let directions = reversed_directions();
-    let mut tables = [[[0; 4]; 16]; 8];
+    let mut tables = [[[0; 2]; 16]; 8];
     let mut i = 0;
     while i < 8 * 16 * 4 * 4 {
         let (digit, value, dimension, bit) = (i / 256, i / 16 % 16, i / 4 % 4, i % 4);
         if value >> bit & 1 == 1 {
             // Bit j of the reversed index is bit 31 - j of the index.
-            tables[digit][value][dimension] ^= directions[dimension][31 - (4 * digit + bit)];
+            let direction = directions[dimension][31 - (4 * digit + bit)] as u64;
+            tables[digit][value][dimension / 2] ^= direction << (dimension % 2 * 32);
         }
         i += 1;
     }
@@ -124,13 +131,6 @@ const fn reversed_directions() -> [[u32; 32]; 4] {
         dimension += 1;
     }
     directions
-}
-
-/// The bits of both in reverse order; one reversal of 64 bits costs as much as one of 32.
-#[inline]
-fn reverse_both(a: u32, b: u32) -> (u32, u32) {
-    let reversed = (u64::from(b) << 32 | u64::from(a)).reverse_bits();
-    ((reversed >> 32) as u32, reversed as u32)
 }
 
 /// The middle of one of 2^32 equal cells of (0, 1): exact in f64, never 0, never 1.

@@ -1,6 +1,6 @@
 //! The camera's geometry against the scene format's definition.
 
-use super::build::*;
+use crate::support::build::*;
 use pathtracer::math::DVec3;
 use pathtracer::scene::desc::{ApertureDesc, SceneDesc};
 use pathtracer::world::{Camera, World};

@@ -1,6 +1,6 @@
 //! Direct light of every shape of light against its closed form.
 
-use super::build::*;
+use crate::support::build::*;
 use pathtracer::math::DVec3;
 use pathtracer::scene::desc::{EnvironmentDesc, ShapeDesc};
 use std::f64::consts::PI;

@@ -1,6 +1,6 @@
 //! Furnaces: what a surface reflects of a uniform world, known without sampling.
 
-use super::build::*;
+use crate::support::build::*;
 use pathtracer::math::DVec3;
 use pathtracer::scene::desc::{MaterialKind, ShapeDesc};
 

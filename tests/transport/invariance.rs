@@ -1,6 +1,6 @@
 //! What may not change a picture: where the scene lies, how large it is, features that are switched to nothing.
 
-use super::build::*;
+use crate::support::build::*;
 use pathtracer::math::DVec3;
 use pathtracer::scene::desc::{ApertureDesc, MaterialKind, SceneDesc, ShapeDesc};
 
