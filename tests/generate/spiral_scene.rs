@@ -14,7 +14,7 @@ const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
 const SPREAD: f64 = 0.61;
 
 /// Radius of the ball that they all lie on.
-const GROUND: f64 = 1000.0;
+const GROUND: f64 = 100_000.0;
 
 /// The part of the scene that is written by hand.
 const HEAD: &str = "\
@@ -36,8 +36,8 @@ Objects:
   - Object:
       Name: Ground
       Type: Ball
-      Position: [0, 0, -1000]
-      Radius: 1000
+      Position: [0, 0, -100000]
+      Radius: 100000
       Material:
         Name: Slate
         Type: Diffuse
