@@ -3,6 +3,11 @@
 /// Statistics, oracles, scenes: what the topics share.
 mod support;
 
+/// The committed meshes and scenes are what their generator makes.
+mod assets;
+/// The makers of the committed meshes and scenes.
+mod generate;
+
 /// Every lobe against its density, its colour, its limits.
 mod material;
 /// The samplers and the warps.
