@@ -1,1 +1,2 @@
+//! Finds Embree and makes its bindings.
 fn main() {}

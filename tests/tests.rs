@@ -1,1 +1,19 @@
 //! One test binary; `cargo test TOPIC` runs one topic, named as its module here.
+
+/// Statistics, oracles, scenes: what the topics share.
+mod support;
+
+/// The committed meshes and scenes are what their generator makes.
+mod assets;
+/// The makers of the committed meshes and scenes.
+mod generate;
+
+/// Every lobe against its density, its colour, its limits.
+mod material;
+/// The samplers and the warps.
+mod sampling;
+
+/// Every light against its density.
+mod lights;
+/// Light transport against closed forms: furnaces, lights of every shape, the sky.
+mod transport;

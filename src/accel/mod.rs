@@ -1,1 +1,134 @@
-//! accel
+//! What does the ray hit?
+//!
+//! An accelerator is a [`Kernel`], which finds candidates, behind the front that all of them share: it refuses rays
+//! that are not finite, tries the few large solids, brings the ray into the kernel's f32 spaces and compares what comes
+//! back by the key of [`crate::geometry`].
+
+pub mod brute_force;
+
+use crate::geometry::{Geometry, Hit, LocalFrame, LocalRay, PrimitiveId, Ray, TriangleHit};
+
+/// How hits of mesh triangles are found. Solids are exact at every precision.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Precision {
+    /// The shared leaf decides: watertight, the same bits from every accelerator.
+    Exact,
+    /// The accelerator's own watertight kernel; accelerators differ on ties and edges only.
+    #[default]
+    Robust,
+    /// The accelerator's fastest kernel; rays may slip through edges.
+    Fast,
+}
+
+/// An upper limit on the instructions used; the machine's best when `None` is given instead.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Isa {
+    /// SSE2, which every x86-64 machine has.
+    Sse2,
+    /// AVX2 with FMA.
+    Avx2,
+    /// AVX-512 (F, BW, DQ, VL).
+    Avx512,
+}
+
+/// What an accelerator is built with.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct BuildOptions {
+    /// How hits of triangles are found.
+    pub precision: Precision,
+    /// The most that may be used, or `None` for the machine's best.
+    pub isa: Option<Isa>,
+}
+
+/// Answers for rays; see [`crate::geometry`] for what a hit is.
+pub trait Accelerator: Sync {
+    /// The closest hit, or `None`.
+    fn intersect(&self, ray: &Ray) -> Option<Hit>;
+
+    /// Whether anything but `target` is in the way, at t in (0, t_max). `t_max` may be infinite.
+    fn occluded(&self, ray: &Ray, t_max: f64, target: PrimitiveId) -> bool;
+}
+
+/// Finds candidates in the two local spaces of a [`Geometry`].
+pub trait Kernel: Sync {
+    /// What it was built over.
+    fn geometry(&self) -> &Geometry;
+
+    /// The hit with the smallest key (t, index) with t in (0, `ray.t_max`], of all triangles but those the ray
+    /// excludes. Called only if there are triangles. At [`Precision::Exact`] the shared leaf
+    /// ([`crate::geometry::closest_in_block`]) decides; otherwise the kernel's own test may choose the triangle, and
+    /// t, u, v are computed by [`crate::geometry::plane_hit`].
+    fn closest_triangle(&self, ray: &LocalRay) -> Option<TriangleHit>;
+
+    /// Whether any triangle but the excluded ones is hit with t in (0, `ray.t_max`).
+    fn any_triangle(&self, ray: &LocalRay) -> bool;
+
+    /// The closest hit among `geometry().tree_solids` that comes before `best` (or, without one, at any t), else `best`.
+    /// `local` is the ray in `geometry().solid_frame`, for the nodes ([`Geometry::solid_node_bounds`]);
+    /// [`Geometry::intersect_solid`] decides with `ray`. Called only if there are such solids.
+    fn closest_solid(&self, ray: &Ray, local: &LocalRay, best: Option<Hit>) -> Option<Hit>;
+
+    /// Whether any of `tree_solids` but `target` is hit at t in (0, t_max), by [`Geometry::solid_occludes`].
+    fn any_solid(&self, ray: &Ray, local: &LocalRay, t_max: f64, target: PrimitiveId) -> bool;
+}
+
+impl<K: Kernel> Accelerator for K {
+    fn intersect(&self, ray: &Ray) -> Option<Hit> {
+        if !ray.is_finite() {
+            return None;
+        }
+        let geometry = self.geometry();
+        let mut best: Option<Hit> = None;
+        for &solid in &geometry.linear_solids {
+            best = nearer(best, geometry.intersect_solid(solid, ray, distance(&best)));
+        }
+        if !geometry.tree_solids.is_empty()
+            && let Some(local) = local_ray(&geometry.solid_frame, ray, &best)
+        {
+            best = self.closest_solid(ray, &local, best);
+        }
+        if !geometry.triangles.is_empty()
+            && let Some(local) = local_ray(&geometry.mesh_frame, ray, &best)
+        {
+            best = nearer(best, self.closest_triangle(&local).map(|hit| geometry.world_hit(ray, &hit)));
+        }
+        best
+    }
+
+    fn occluded(&self, ray: &Ray, t_max: f64, target: PrimitiveId) -> bool {
+        if !ray.is_finite() || t_max.is_nan() || t_max <= 0.0 {
+            return false;
+        }
+        let geometry = self.geometry();
+        let linear = geometry.linear_solids.iter();
+        if linear.into_iter().any(|&solid| geometry.solid_occludes(solid, ray, t_max, target)) {
+            return true;
+        }
+        if !geometry.tree_solids.is_empty()
+            && let Some(local) = geometry.solid_frame.localize(ray, t_max, target)
+            && self.any_solid(ray, &local, t_max, target)
+        {
+            return true;
+        }
+        !geometry.triangles.is_empty()
+            && geometry.mesh_frame.localize(ray, t_max, target).is_some_and(|local| self.any_triangle(&local))
+    }
+}
+
+/// The ray in a local space, for hits that may come before `best`.
+fn local_ray(frame: &LocalFrame, ray: &Ray, best: &Option<Hit>) -> Option<LocalRay> {
+    frame.localize(ray, frame.widen(distance(best)), PrimitiveId::NONE)
+}
+
+/// The first of two hits.
+pub(crate) fn nearer(a: Option<Hit>, b: Option<Hit>) -> Option<Hit> {
+    match (a, b) {
+        (Some(a), Some(b)) => Some(if b.before(&a) { b } else { a }),
+        (a, b) => a.or(b),
+    }
+}
+
+/// The distance of a hit; infinite without one.
+pub(crate) fn distance(hit: &Option<Hit>) -> f64 {
+    hit.as_ref().map_or(f64::INFINITY, |hit| hit.t)
+}

@@ -1,1 +1,87 @@
-//! world
+//! What is rendered: a scene compiled to flat arrays that are joined by indices. Nothing after
+//! [`World::compile`] can fail on a user's input.
+//!
+//! World space is the scene's space moved so that its origin is the component-wise median of the objects' positions,
+//! which is a subtraction in f64 and costs no precision near the objects, wherever the scene lies.
+
+mod camera;
+mod compile;
+pub mod light;
+mod requires;
+mod shading;
+mod sky;
+
+pub use camera::Camera;
+pub use requires::Requires;
+pub use sky::{Sky, SkyKind};
+
+use crate::geometry::{Geometry, Hit, Ray, SurfacePoint};
+use crate::material::Material;
+use crate::math::{DVec3, Rgb};
+use crate::scene::desc::CameraDesc;
+use light::Lights;
+use shading::ShadingNormals;
+
+/// A scene, ready to be rendered.
+#[derive(Clone, Debug)]
+pub struct World {
+    /// All primitives.
+    pub geometry: Geometry,
+    /// The sky.
+    pub sky: Sky,
+    /// All that shines.
+    pub lights: Lights,
+    /// What the scene needs.
+    pub requires: Requires,
+    /// The scene's point that is the origin of world space.
+    pub origin: DVec3,
+    /// Of every object.
+    materials: Vec<Material>,
+    /// Radiance that every object emits.
+    emission: Vec<Rgb>,
+    /// Normals of the mesh files, where they are used.
+    normals: ShadingNormals,
+}
+
+/// Where a path meets a surface.
+#[derive(Clone, Copy, Debug)]
+pub struct Interaction {
+    /// The point with its geometric normal.
+    pub point: SurfacePoint,
+    /// The geometric normal on the side that the ray came from.
+    pub side: DVec3,
+    /// The normal that materials see, on the side that the ray came from.
+    pub normal: DVec3,
+    /// Whether the ray came from the outer side.
+    pub entering: bool,
+}
+
+impl World {
+    /// The camera for a picture of `width` x `height` pixels.
+    pub fn camera(&self, desc: &CameraDesc, width: u32, height: u32) -> Camera {
+        Camera::new(desc, self.origin, width, height)
+    }
+
+    /// The material of an object.
+    pub fn material(&self, object: u32) -> &Material {
+        &self.materials[object as usize]
+    }
+
+    /// The radiance that an object emits.
+    pub fn emission(&self, object: u32) -> Rgb {
+        self.emission[object as usize]
+    }
+
+    /// The surface where a ray arrives.
+    pub fn interaction(&self, ray: &Ray, hit: &Hit) -> Interaction {
+        let point = self.geometry.surface(ray, hit);
+        let entering = ray.direction.dot(point.normal) < 0.0;
+        let side = if entering { point.normal } else { -point.normal };
+        let normal = self.normals.at(hit).map_or(side, |normal| {
+            let normal = if normal.dot(side) < 0.0 { -normal } else { normal };
+            // A normal that faces away from the viewer says nothing about what is seen.
+            if normal.dot(ray.direction) < 0.0 { normal } else { side }
+        });
+        Interaction { point, side, normal, entering }
+    }
+}

@@ -1,2 +1,25 @@
-//! Makes the meshes under `objects/`.
-fn main() {}
+//! Writes the meshes under `objects/` and the long scene under `scenes/`: `cargo run --release --example generate`.
+//!
+//! What it writes depends on nothing but its own code, so that the same files come out on every machine.
+
+mod blossom_tree;
+mod board;
+mod files;
+mod implicit;
+mod knight;
+mod lathe;
+mod mesh;
+mod random;
+mod spiral_scene;
+mod tube;
+
+use std::path::Path;
+
+fn main() -> std::io::Result<()> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    for (path, content) in files::all() {
+        println!("{path}: {} bytes", content.len());
+        std::fs::write(root.join(path), content)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,102 @@
+//! The box, in f64. (`Box` is taken by the language.)
+
+use super::Rectangle;
+use crate::math::{Bounds, DMat3, DVec3};
+
+/// A box that may be turned.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cuboid {
+    /// Centre.
+    pub center: DVec3,
+    /// Half of the edge lengths, each > 0.
+    pub half: DVec3,
+    /// Rotation from the box's axes to the world's; its columns are the box's axes.
+    pub rotation: DMat3,
+}
+
+/// Where a line meets a box: distance and face (0 to 5: -x +x -y +y -z +z).
+type FaceHit = (f64, u32);
+
+impl Cuboid {
+    /// Where the line enters and leaves the box; distances may be negative.
+    pub fn slabs(&self, origin: DVec3, direction: DVec3) -> Option<(FaceHit, FaceHit)> {
+        let o = self.to_local(origin - self.center);
+        let d = self.to_local(direction);
+        let mut enter = (f64::NEG_INFINITY, 0);
+        let mut leave = (f64::INFINITY, 0);
+        for axis in 0..3u32 {
+            let (o, d, h) = (o[axis as usize], d[axis as usize], self.half[axis as usize]);
+            if d == 0.0 {
+                if o.abs() > h {
+                    return None;
+                }
+                continue;
+            }
+            let (t_low, t_high) = ((-h - o) / d, (h - o) / d);
+            let (near, far, near_face) =
+                if d > 0.0 { (t_low, t_high, 2 * axis) } else { (t_high, t_low, 2 * axis + 1) };
+            if near > enter.0 {
+                enter = (near, near_face);
+            }
+            if far < leave.0 {
+                leave = (far, near_face ^ 1);
+            }
+        }
+        (enter.0 <= leave.0).then_some((enter, leave))
+    }
+
+    /// From the world's axes to the box's.
+    pub fn to_local(&self, v: DVec3) -> DVec3 {
+        DVec3::new(v.dot(self.rotation.x_axis), v.dot(self.rotation.y_axis), v.dot(self.rotation.z_axis))
+    }
+
+    /// The unit normal of a face, outward.
+    pub fn face_normal(&self, face: u32) -> DVec3 {
+        let axis = self.rotation.col(face as usize / 2);
+        if face.is_multiple_of(2) { -axis } else { axis }
+    }
+
+    /// The point of a face nearest to where the line is after `t`, relative to the centre, in the box's axes.
+    pub fn point_on_face(&self, origin: DVec3, direction: DVec3, t: f64, face: u32) -> DVec3 {
+        let mut p = self.to_local((origin - self.center) + direction * t).clamp(-self.half, self.half);
+        let axis = face as usize / 2;
+        p[axis] = if face.is_multiple_of(2) { -self.half[axis] } else { self.half[axis] };
+        p
+    }
+
+    /// Coordinates in [0, 1] of a point of a face, seen from outside: u to the right, v up (top and bottom: u along
+    /// -y, v along +x).
+    pub fn face_coordinates(&self, p: DVec3, face: u32) -> (f64, f64) {
+        let q = (p / self.half) * 0.5 + 0.5;
+        match face {
+            0 => (1.0 - q.y, q.z),
+            1 => (q.y, q.z),
+            2 => (q.x, q.z),
+            3 => (1.0 - q.x, q.z),
+            _ => (1.0 - q.y, q.x),
+        }
+    }
+
+    /// A face as a rectangle whose front is outside, with the coordinates of [`Cuboid::face_coordinates`].
+    pub fn face(&self, face: u32) -> Rectangle {
+        let [x, y, z] = [DVec3::X * self.half.x, DVec3::Y * self.half.y, DVec3::Z * self.half.z];
+        let (out, right, up) = match face {
+            0 => (-x, -y, z),
+            1 => (x, y, z),
+            2 => (-y, x, z),
+            3 => (y, -x, z),
+            4 => (-z, -y, x),
+            _ => (z, -y, x),
+        };
+        let r = self.rotation;
+        Rectangle::new(self.center + r * out, r * right, r * up)
+    }
+
+    /// The box around it, aligned to the world's axes.
+    pub fn bounds(&self) -> Bounds {
+        let r = self.rotation;
+        let reach =
+            r.x_axis.abs() * self.half.x + r.y_axis.abs() * self.half.y + r.z_axis.abs() * self.half.z;
+        Bounds { min: self.center - reach, max: self.center + reach }
+    }
+}

@@ -1,0 +1,130 @@
+//! The point where a ray arrives, and rays that leave it.
+
+use super::{Geometry, Hit, PrimitiveId, Ray, Shape, Solid};
+use crate::math::{DVec3, EPSILON};
+
+/// A point of a surface, in world space.
+#[derive(Clone, Copy, Debug)]
+pub struct SurfacePoint {
+    /// Where; on the surface to within `error`.
+    pub position: DVec3,
+    /// Unit geometric normal: outward of balls and boxes, the front of rectangles, the counter-clockwise side of
+    /// triangles.
+    pub normal: DVec3,
+    /// Bound of each component's error in `position`.
+    pub error: DVec3,
+    /// What it belongs to.
+    pub primitive: PrimitiveId,
+    /// Whether the primitive is the surface of a body that a ray can be inside of: balls and boxes.
+    closed: bool,
+}
+
+impl SurfacePoint {
+    /// A ray that leaves in the unit direction `direction`. Its origin is moved by the error bound along the normal
+    /// (Pharr, Jakob, Humphreys, "Physically Based Rendering" 4th ed., 6.8.6), here in f64.
+    pub fn leave(&self, direction: DVec3) -> Ray {
+        let outward = direction.dot(self.normal) > 0.0;
+        let side = if outward { self.normal } else { -self.normal };
+        Ray {
+            origin: self.beside(side),
+            direction,
+            side,
+            leaving: self.primitive,
+            inward: self.closed && !outward,
+        }
+    }
+
+    /// The ray to another surface's point, and its length; `None` if the two are so near that their error bounds hide
+    /// the direction. Both ends are moved off their surfaces.
+    pub fn leave_to(&self, target: &SurfacePoint) -> Option<(Ray, f64)> {
+        let toward = target.position - self.position;
+        let side_here = if toward.dot(self.normal) > 0.0 { self.normal } else { -self.normal };
+        let side_there = if toward.dot(target.normal) < 0.0 { target.normal } else { -target.normal };
+        let origin = self.beside(side_here);
+        let way = target.beside(side_there) - origin;
+        let length = way.length();
+        if !(way.dot(toward) > 0.0 && length.is_finite()) {
+            return None;
+        }
+        let direction = way / length;
+        let ray = Ray {
+            origin,
+            direction,
+            side: side_here,
+            leaving: self.primitive,
+            inward: self.closed && side_here != self.normal,
+        };
+        Some((ray, length))
+    }
+
+    fn beside(&self, side: DVec3) -> DVec3 {
+        self.position + side * self.error.dot(side.abs())
+    }
+}
+
+/// Roundings of a position: those of its own computation, of moving it and of the next ray's first steps.
+const ROUNDINGS: f64 = 16.0 * EPSILON;
+
+impl Geometry {
+    /// The point of a hit of `ray`.
+    pub fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
+        if let Some(solid) = hit.primitive.as_solid() {
+            return self.solid_surface(solid, ray, hit);
+        }
+        let index = hit.primitive.as_triangle().unwrap_or_default();
+        self.triangle_point(index, hit.u, hit.v)
+    }
+
+    fn solid_surface(&self, solid: u32, ray: &Ray, hit: &Hit) -> SurfacePoint {
+        let Solid { shape, .. } = self.solids[solid as usize];
+        let (origin, direction) = (ray.origin, ray.direction);
+        let (center, offset, normal) = match shape {
+            Shape::Ball(ball) => {
+                let normal = ball.normal_at(origin, direction, hit.t);
+                (ball.center, normal * ball.radius, normal)
+            }
+            Shape::Cuboid(cuboid) => {
+                let offset = cuboid.rotation * cuboid.point_on_face(origin, direction, hit.t, hit.part);
+                (cuboid.center, offset, cuboid.face_normal(hit.part))
+            }
+            Shape::Rectangle(rectangle) => {
+                (rectangle.center, rectangle.offset_at(hit.u, hit.v), rectangle.normal)
+            }
+        };
+        self.solid_point(solid, center, offset, normal)
+    }
+
+    /// The point of a solid at `offset` from its centre.
+    pub fn solid_point(&self, solid: u32, center: DVec3, offset: DVec3, normal: DVec3) -> SurfacePoint {
+        // Of a turned body every component of the offset takes part in every other.
+        let size = match self.solids[solid as usize].shape {
+            Shape::Ball(ball) => ball.radius,
+            Shape::Cuboid(cuboid) => cuboid.half.length(),
+            Shape::Rectangle(rectangle) => rectangle.edge_u.length() + rectangle.edge_v.length(),
+        };
+        let position = center + offset;
+        SurfacePoint {
+            position,
+            normal,
+            error: (center.abs() + size) * ROUNDINGS,
+            primitive: PrimitiveId::solid(solid),
+            closed: !matches!(self.solids[solid as usize].shape, Shape::Rectangle(_)),
+        }
+    }
+
+    /// The point of a triangle with these weights of its second and third corner.
+    pub fn triangle_point(&self, triangle: u32, u: f64, v: f64) -> SurfacePoint {
+        let [a, b, c] = self.corners(triangle);
+        let (ab, ac) = (b - a, c - a);
+        let local = a + ab * u + ac * v;
+        let size = a.abs() + ab.abs() + ac.abs();
+        SurfacePoint {
+            position: self.mesh_frame.to_world(local),
+            // Edges of f32 numbers in [2^-149, 2]: their products do not underflow in f64.
+            normal: ab.cross(ac).normalize(),
+            error: (self.mesh_frame.pivot.abs() + size / self.mesh_frame.scale) * ROUNDINGS,
+            primitive: PrimitiveId::triangle(triangle),
+            closed: false,
+        }
+    }
+}

@@ -1,0 +1,231 @@
+//! Unidirectional path tracing with next-event estimation; light and material sampling are joined by multiple
+//! importance sampling (Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, ch. 9 and 10).
+
+use super::Counters;
+use crate::accel::Accelerator;
+use crate::geometry::{PrimitiveId, Ray};
+use crate::material::{Material, Pdf};
+use crate::math::{DVec3, Rgb};
+use crate::sampling::{PixelSeed, Sampler};
+use crate::world::light::{LightSample, LightTarget, Receiver};
+use crate::world::{Camera, Interaction, World};
+
+/// Estimates the radiance that arrives at the camera.
+pub struct PathTracer<'a, A> {
+    world: &'a World,
+    camera: &'a Camera,
+    accelerator: &'a A,
+    /// Longest path in segments, at least 1.
+    bounces: u32,
+    light_sampling: bool,
+}
+
+/// How the last direction of a path was chosen: what weighs light that it meets.
+#[derive(Clone, Copy)]
+enum Chosen {
+    /// So that light sampling could not have found the same: the camera, a delta, or light sampling off.
+    Alone,
+    /// By a material with this density, where light sampling competes.
+    ByMaterial { pdf: f64, receiver: Receiver },
+}
+
+/// A path on its way.
+struct Path<'s, S> {
+    sampler: &'s S,
+    pixel: PixelSeed,
+    index: u64,
+    ray: Ray,
+    /// Factor on all light that the path still meets.
+    throughput: Rgb,
+    radiance: Rgb,
+    chosen: Chosen,
+}
+
+/// Paths of up to so many segments are never ended by chance.
+const ROULETTE_AFTER: u32 = 3;
+
+impl<'a, A: Accelerator> PathTracer<'a, A> {
+    /// Paths of up to `bounces` segments; `light_sampling` aims rays at lights where the scene has any.
+    pub fn new(
+        world: &'a World,
+        camera: &'a Camera,
+        accelerator: &'a A,
+        bounces: u32,
+        light_sampling: bool,
+    ) -> PathTracer<'a, A> {
+        let light_sampling = light_sampling && world.requires.light_sampling;
+        PathTracer { world, camera, accelerator, bounces, light_sampling }
+    }
+
+    /// The radiance of sample `index` of the pixel (x, y).
+    pub fn sample<S: Sampler>(
+        &self,
+        sampler: &S,
+        x: u32,
+        y: u32,
+        index: u64,
+        counters: &mut Counters,
+    ) -> Rgb {
+        let pixel = sampler.pixel(x, y);
+        let [dx, dy, lens_u, lens_v] = sampler.sample4(pixel, index, 0);
+        let ray = self.camera.ray(f64::from(x) + dx, f64::from(y) + dy, [lens_u, lens_v]);
+        let mut path = Path {
+            sampler,
+            pixel,
+            index,
+            ray,
+            throughput: Rgb::ONE,
+            radiance: Rgb::ZERO,
+            chosen: Chosen::Alone,
+        };
+        for segment in 1..=self.bounces {
+            if !self.extend(&mut path, segment, counters) {
+                break;
+            }
+        }
+        path.radiance
+    }
+
+    /// Follows the path's ray to what it meets, adds the light found there and by aiming at lights, and turns it to
+    /// where it goes on. Whether it does.
+    fn extend<S: Sampler>(&self, path: &mut Path<S>, segment: u32, counters: &mut Counters) -> bool {
+        counters.rays += 1;
+        let Some(hit) = self.accelerator.intersect(&path.ray) else {
+            self.add_sky(path);
+            return false;
+        };
+        let at = self.world.interaction(&path.ray, &hit);
+        let emission = self.world.emission(hit.object);
+        if emission != Rgb::ZERO {
+            let weight =
+                path.chosen.weight(|receiver| self.world.lights.pdf_surface(receiver, &hit, &at.point));
+            path.radiance += path.throughput * emission * weight;
+        }
+        if segment == self.bounces {
+            return false;
+        }
+        let material = self.world.material(hit.object);
+        // Two sets of four dimensions a segment, after the camera's: light choice and roulette; material.
+        let light_set = 2 * segment - 1;
+        let [select, u, v, roulette] = path.sampler.sample4(path.pixel, path.index, light_set);
+        let aims = self.light_sampling && !material.is_delta();
+        if aims {
+            path.radiance +=
+                path.throughput * self.direct(path.ray.direction, &at, material, [select, u, v], counters);
+        }
+        let numbers = path.sampler.sample4(path.pixel, path.index, light_set + 1);
+        self.scatter(path, &at, material, aims, [numbers[0], numbers[1], numbers[2]])
+            && survives(path, segment, roulette)
+    }
+
+    fn add_sky<S: Sampler>(&self, path: &mut Path<S>) {
+        let direction = path.ray.direction;
+        let radiance = self.world.sky.radiance(direction);
+        if radiance != Rgb::ZERO {
+            let weight = path.chosen.weight(|_| self.world.lights.pdf_sky(&self.world.sky, direction));
+            path.radiance += path.throughput * radiance * weight;
+        }
+    }
+
+    /// Light from a chosen point of a light, as it leaves towards where the path came from.
+    fn direct(
+        &self,
+        arrived: DVec3,
+        at: &Interaction,
+        material: &Material,
+        u: [f64; 3],
+        counters: &mut Counters,
+    ) -> Rgb {
+        let (world, receiver) = (self.world, at.receiver());
+        let Some(light) = world.lights.sample(&world.geometry, &world.sky, &receiver, u) else {
+            return Rgb::ZERO;
+        };
+        let Some((ray, length, target)) = shadow_ray(at, &light) else {
+            return Rgb::ZERO;
+        };
+        if ray.direction.dot(at.side) <= 0.0 {
+            return Rgb::ZERO;
+        }
+        let (scattered, pdf) = material.eval(-arrived, at.normal, ray.direction);
+        if scattered == Rgb::ZERO {
+            return Rgb::ZERO;
+        }
+        counters.rays += 1;
+        if self.accelerator.occluded(&ray, length, target) {
+            return Rgb::ZERO;
+        }
+        // Balance heuristic; written so that an infinite density of the material gives 0, not Inf / Inf.
+        scattered * light.radiance * (1.0 / (light.pdf + pdf))
+    }
+
+    /// Turns the path to a direction that the material chose. Whether it goes on.
+    fn scatter<S>(
+        &self,
+        path: &mut Path<S>,
+        at: &Interaction,
+        material: &Material,
+        aims: bool,
+        u: [f64; 3],
+    ) -> bool {
+        let wo = -path.ray.direction;
+        let Some(scatter) = material.sample(wo, at.normal, at.entering, u) else {
+            return false;
+        };
+        // With interpolated normals a direction can lie on the other side of the surface than the material meant.
+        let through = scatter.direction.dot(at.normal) < 0.0;
+        if through != (scatter.direction.dot(at.side) < 0.0) {
+            return false;
+        }
+        path.throughput *= scatter.weight;
+        path.chosen = match scatter.pdf {
+            Pdf::SolidAngle(pdf) if aims => Chosen::ByMaterial { pdf, receiver: at.receiver() },
+            _ => Chosen::Alone,
+        };
+        path.ray = at.point.leave(scatter.direction);
+        path.throughput != Rgb::ZERO
+    }
+}
+
+impl Chosen {
+    /// The balance heuristic's weight of light that was met, given the density of meeting it by light sampling.
+    fn weight(&self, light_pdf: impl FnOnce(&Receiver) -> f64) -> f64 {
+        match self {
+            Chosen::Alone => 1.0,
+            Chosen::ByMaterial { pdf, receiver } => 1.0 / (1.0 + light_pdf(receiver) / pdf),
+        }
+    }
+}
+
+impl Interaction {
+    fn receiver(&self) -> Receiver {
+        Receiver { point: self.point, side: self.side }
+    }
+}
+
+/// The ray to a chosen light, the distance within which nothing may stand, and what may stand there.
+fn shadow_ray(at: &Interaction, light: &LightSample) -> Option<(Ray, f64, PrimitiveId)> {
+    match &light.target {
+        LightTarget::Sky(direction) => Some((at.point.leave(*direction), f64::INFINITY, PrimitiveId::NONE)),
+        LightTarget::Surface(point) => {
+            let (ray, length) = at.point.leave_to(point)?;
+            Some((ray, length, point.primitive))
+        }
+    }
+}
+
+/// Russian roulette by throughput relative to the camera's, which no scale of the lights changes. A path that goes on
+/// carries what the ended ones would have.
+fn survives<S>(path: &mut Path<S>, segment: u32, u: f64) -> bool {
+    if segment <= ROULETTE_AFTER {
+        return true;
+    }
+    let probability = path.throughput.max_element();
+    if probability >= 1.0 {
+        return true;
+    }
+    if u >= probability {
+        return false;
+    }
+    path.throughput /= probability;
+    true
+}

@@ -1,0 +1,75 @@
+//! The camera: a thin lens in front of a plane of square pixels.
+
+use crate::geometry::Ray;
+use crate::math::{DVec3, sin_cos_degrees};
+use crate::sampling::warp::square_to_disk;
+use crate::scene::desc::{ApertureDesc, CameraDesc};
+
+/// A camera for a picture of a certain size.
+#[derive(Clone, Copy, Debug)]
+pub struct Camera {
+    /// Centre of the lens, in world space.
+    pub position: DVec3,
+    /// Unit viewing direction.
+    pub forward: DVec3,
+    /// Unit vector to the right in the picture.
+    pub right: DVec3,
+    /// Unit vector upwards in the picture.
+    pub up: DVec3,
+    /// Radius of the lens; 0 is a pinhole.
+    pub lens_radius: f64,
+    focus_distance: f64,
+    /// Half of the picture's width and height at distance 1.
+    half_view: [f64; 2],
+    /// Width and height in pixels.
+    size: [f64; 2],
+}
+
+impl Camera {
+    /// The camera of a scene whose world space has its origin at `origin`.
+    pub(super) fn new(desc: &CameraDesc, origin: DVec3, width: u32, height: u32) -> Camera {
+        let forward = unit(desc.looking_at - desc.position);
+        // Where the view is vertical, left is the limit of tilting down from +y.
+        let flat = DVec3::new(-forward.y, forward.x, 0.0);
+        let level = if flat == DVec3::ZERO { DVec3::NEG_X } else { unit(flat) };
+        let (sin, cos) = sin_cos_degrees(desc.angle);
+        let left = level * cos + forward.cross(level) * sin;
+        let half_width = libm::tan(desc.fov * std::f64::consts::FRAC_PI_2);
+        let lens_radius = match desc.aperture {
+            ApertureDesc::Radius(radius) => radius,
+            ApertureDesc::DepthOfField(strength) => {
+                strength * (2.0 * desc.focus_distance * half_width) / 1920.0
+            }
+        };
+        let size = [f64::from(width), f64::from(height)];
+        Camera {
+            position: desc.position - origin,
+            forward,
+            right: -left,
+            up: forward.cross(left),
+            lens_radius,
+            focus_distance: desc.focus_distance,
+            half_view: [half_width, half_width * (size[1] / size[0])],
+            size,
+        }
+    }
+
+    /// The ray through the picture's point (x, y), in pixels from the top left corner, and the lens' point that `lens`
+    /// in [0, 1)^2 selects.
+    pub fn ray(&self, x: f64, y: f64, lens: [f64; 2]) -> Ray {
+        let across = (2.0 * x / self.size[0] - 1.0) * self.half_view[0];
+        let upwards = (1.0 - 2.0 * y / self.size[1]) * self.half_view[1];
+        let toward = self.forward + self.right * across + self.up * upwards;
+        if self.lens_radius == 0.0 {
+            return Ray::new(self.position, toward.normalize());
+        }
+        let [a, b] = square_to_disk(lens);
+        let offset = (self.right * a + self.up * b) * self.lens_radius;
+        Ray::new(self.position + offset, (toward * self.focus_distance - offset).normalize())
+    }
+}
+
+/// The unit vector along `v`, also where the squares of its components would leave the range of numbers.
+fn unit(v: DVec3) -> DVec3 {
+    (v / v.abs().max_element()).normalize()
+}

@@ -1,0 +1,268 @@
+//! Surfaces that emit: choosing a point of one as seen from another point, and the density of that choice.
+
+use super::alias::{AliasTable, BELOW_ONE};
+use super::spherical_rectangle::SphericalRectangle;
+use crate::geometry::{Ball, Cuboid, Geometry, PrimitiveId, Rectangle, Shape, SurfacePoint};
+use crate::math::{DVec3, Frame, Rgb, luminance};
+use crate::sampling::warp::{cone_pdf, square_to_cone, square_to_triangle};
+
+/// Where light arrives: a point with the side of its surface that is lit.
+#[derive(Clone, Copy, Debug)]
+pub struct Receiver {
+    /// The point.
+    pub point: SurfacePoint,
+    /// Its geometric normal, on the lit side.
+    pub side: DVec3,
+}
+
+/// An object that emits the same radiance everywhere, on both sides.
+#[derive(Clone, Debug)]
+pub(super) struct AreaLight {
+    /// Emitted radiance.
+    pub(super) radiance: Rgb,
+    shape: LightShape,
+    /// Luminance times area.
+    pub(super) power: f64,
+    center: DVec3,
+    bounding_radius: f64,
+}
+
+#[derive(Clone, Debug)]
+enum LightShape {
+    Ball {
+        solid: u32,
+        ball: Ball,
+    },
+    Cuboid {
+        solid: u32,
+        cuboid: Cuboid,
+        faces: Box<[Rectangle; 6]>,
+    },
+    Rectangle {
+        solid: u32,
+        rectangle: Rectangle,
+    },
+    /// Triangles from `first` on, chosen by area.
+    Mesh {
+        first: u32,
+        area: f64,
+        table: AliasTable,
+    },
+}
+
+/// A point of a light, and its density per solid angle.
+pub(super) type PointSample = (SurfacePoint, f64);
+
+impl AreaLight {
+    /// The light of a solid.
+    pub(super) fn of_solid(geometry: &Geometry, solid: u32, radiance: Rgb) -> AreaLight {
+        let (shape, area) = match geometry.solids[solid as usize].shape {
+            Shape::Ball(ball) => {
+                let area = 4.0 * std::f64::consts::PI * ball.radius * ball.radius;
+                (LightShape::Ball { solid, ball }, area)
+            }
+            Shape::Cuboid(cuboid) => {
+                let faces = Box::new(std::array::from_fn(|face| cuboid.face(face as u32)));
+                let area = faces.iter().map(Rectangle::area).sum();
+                (LightShape::Cuboid { solid, cuboid, faces }, area)
+            }
+            Shape::Rectangle(rectangle) => (LightShape::Rectangle { solid, rectangle }, rectangle.area()),
+        };
+        let bounds = geometry.solids[solid as usize].bounds();
+        let bounding_radius = ((bounds.max - bounds.min) * 0.5).length();
+        AreaLight {
+            radiance,
+            shape,
+            power: luminance(radiance) * area,
+            center: bounds.center(),
+            bounding_radius,
+        }
+    }
+
+    /// The light of a mesh: `count` triangles from `first` on.
+    pub(super) fn of_mesh(geometry: &Geometry, first: u32, count: u32, radiance: Rgb) -> AreaLight {
+        let mut bounds = crate::math::Bounds::EMPTY;
+        let mut areas = Vec::with_capacity(count as usize);
+        for index in first..first + count {
+            let [a, b, c] = geometry.corners(index).map(|corner| geometry.mesh_frame.to_world(corner));
+            bounds = [a, b, c].into_iter().fold(bounds, |bounds, corner| bounds.with_point(corner));
+            areas.push(0.5 * (b - a).cross(c - a).length());
+        }
+        let area: f64 = areas.iter().sum();
+        AreaLight {
+            radiance,
+            shape: LightShape::Mesh { first, area, table: AliasTable::new(&areas) },
+            power: luminance(radiance) * area,
+            center: bounds.center(),
+            bounding_radius: ((bounds.max - bounds.min) * 0.5).length(),
+        }
+    }
+
+    /// An estimate, without occlusion, of the light that reaches a receiver: power over squared distance; 0 only where
+    /// no point of the light is above the receiver's surface.
+    pub(super) fn importance(&self, at: &Receiver) -> f64 {
+        let to = self.center - at.point.position;
+        if to.dot(at.side) < -self.bounding_radius * (1.0 + 1e-9) {
+            return 0.0;
+        }
+        self.power / to.length_squared().max(self.bounding_radius * self.bounding_radius)
+    }
+
+    /// A point as seen from the receiver, from `u` in [0, 1)^2; `None` where it can't be seen, or only by chance.
+    pub(super) fn sample(&self, geometry: &Geometry, at: &Receiver, u: [f64; 2]) -> Option<PointSample> {
+        let p = at.point.position;
+        match &self.shape {
+            LightShape::Ball { solid, ball } => {
+                let cone = Cone::of(ball, p).filter(|_| at.point.primitive != PrimitiveId::solid(*solid))?;
+                let normal = cone.normal_of(square_to_cone(u, cone.one_minus_cos));
+                let point = geometry.solid_point(*solid, ball.center, normal * ball.radius, normal);
+                Some((point, cone_pdf(cone.one_minus_cos)))
+            }
+            LightShape::Rectangle { solid, rectangle } => {
+                if at.point.primitive == PrimitiveId::solid(*solid) {
+                    return None;
+                }
+                let view = SphericalRectangle::new(rectangle, p);
+                let (s, t) = view.sample(u);
+                let offset = rectangle.offset_at(s, t);
+                let point = geometry.solid_point(*solid, rectangle.center, offset, rectangle.normal);
+                Some((point, view.pdf(point.position - p)))
+            }
+            LightShape::Cuboid { solid, cuboid, faces } => {
+                let seen = VisibleFaces::new(*solid, cuboid, faces, at);
+                let (face, u0) = seen.choose(u[0])?;
+                let (s, t) = seen.views[face]?.sample([u0, u[1]]);
+                let offset = faces[face].center - cuboid.center + faces[face].offset_at(s, t);
+                let point = geometry.solid_point(*solid, cuboid.center, offset, faces[face].normal);
+                Some((point, seen.pdf(face, point.position - p)))
+            }
+            LightShape::Mesh { first, area, table } => {
+                let (index, _, u0) = table.sample(u[0])?;
+                let [s, t] = square_to_triangle([u0, u[1]]);
+                let point = geometry.triangle_point(first + index, s, t);
+                (point.primitive != at.point.primitive).then(|| (point, mesh_pdf(*area, &point, p)))
+            }
+        }
+    }
+
+    /// Density per solid angle with which [`AreaLight::sample`] chooses `point`, on the part `part` of the light.
+    pub(super) fn pdf(&self, at: &Receiver, point: &SurfacePoint, part: u32) -> f64 {
+        let p = at.point.position;
+        match &self.shape {
+            LightShape::Ball { solid, ball } => Cone::of(ball, p)
+                .filter(|_| at.point.primitive != PrimitiveId::solid(*solid))
+                .map_or(0.0, |cone| cone_pdf(cone.one_minus_cos)),
+            LightShape::Rectangle { rectangle, .. } => {
+                SphericalRectangle::new(rectangle, p).pdf(point.position - p)
+            }
+            LightShape::Cuboid { solid, cuboid, faces } => {
+                VisibleFaces::new(*solid, cuboid, faces, at).pdf(part as usize, point.position - p)
+            }
+            LightShape::Mesh { area, .. } => mesh_pdf(*area, point, p),
+        }
+    }
+}
+
+fn mesh_pdf(area: f64, point: &SurfacePoint, from: DVec3) -> f64 {
+    let to = point.position - from;
+    let distance2 = to.length_squared();
+    distance2 * distance2.sqrt() / (area * to.dot(point.normal).abs())
+}
+
+/// The cone of directions in which a ball is seen from outside.
+struct Cone {
+    frame: Frame,
+    one_minus_cos: f64,
+    /// Sine of the half angle: radius over distance.
+    sin: f64,
+    /// Distance over radius.
+    distance: f64,
+}
+
+impl Cone {
+    /// `None` from inside and from the surface.
+    fn of(ball: &Ball, p: DVec3) -> Option<Cone> {
+        let to = ball.center - p;
+        let distance = to.length();
+        if distance <= ball.radius {
+            return None;
+        }
+        let sin = ball.radius / distance;
+        let cos = ((distance - ball.radius) * (distance + ball.radius)).sqrt() / distance;
+        // 1 - cos without cancellation.
+        let one_minus_cos = sin * sin / (1.0 + cos);
+        Some(Cone {
+            frame: Frame::around(to / distance),
+            one_minus_cos,
+            sin,
+            distance: distance / ball.radius,
+        })
+    }
+
+    /// The ball's unit normal where a direction of the cone, given about its axis, first meets the ball.
+    fn normal_of(&self, local: DVec3) -> DVec3 {
+        let sin2 = local.x * local.x + local.y * local.y;
+        // In units of the radius: the near root of the quadratic, with the perpendicular distance * sin.
+        let root = ((self.sin * self.sin - sin2).max(0.0)).sqrt() * self.distance;
+        let t = self.distance * local.z - root;
+        self.frame.to_world(DVec3::new(local.x * t, local.y * t, local.z * t - self.distance)).normalize()
+    }
+}
+
+/// The faces of a box that a receiver sees: up to three from outside, all from inside.
+struct VisibleFaces {
+    views: [Option<SphericalRectangle>; 6],
+    total: f64,
+}
+
+impl VisibleFaces {
+    fn new(solid: u32, cuboid: &Cuboid, faces: &[Rectangle; 6], at: &Receiver) -> VisibleFaces {
+        let p = at.point.position;
+        let own = at.point.primitive == PrimitiveId::solid(solid);
+        let local = cuboid.to_local(p - cuboid.center);
+        let outside = if own {
+            // On the box itself the lit side tells, not the rounding of the position.
+            at.side.dot(at.point.normal) > 0.0
+        } else {
+            local.abs().cmpgt(cuboid.half).any()
+        };
+        let mut seen = VisibleFaces { views: [None; 6], total: 0.0 };
+        if own && outside {
+            return seen;
+        }
+        for (face, rectangle) in faces.iter().enumerate() {
+            let axis = face / 2;
+            let beyond = if face % 2 == 0 { -local[axis] } else { local[axis] } > cuboid.half[axis];
+            let own_face = own && rectangle.normal.dot(at.point.normal) > 0.5;
+            if beyond == outside && !own_face {
+                let view = SphericalRectangle::new(rectangle, p);
+                seen.total += view.solid_angle();
+                seen.views[face] = Some(view);
+            }
+        }
+        seen
+    }
+
+    /// A face in proportion to its solid angle, and `u` made new.
+    fn choose(&self, u: f64) -> Option<(usize, f64)> {
+        let mut rest = u * self.total;
+        let mut last = None;
+        for (face, view) in self.views.iter().enumerate() {
+            let angle = view.map_or(0.0, |view| view.solid_angle());
+            if angle == 0.0 {
+                continue;
+            }
+            if rest < angle {
+                return Some((face, (rest / angle).min(BELOW_ONE)));
+            }
+            rest -= angle;
+            last = Some((face, BELOW_ONE));
+        }
+        last
+    }
+
+    fn pdf(&self, face: usize, to: DVec3) -> f64 {
+        let view = self.views.get(face).copied().flatten();
+        view.map_or(0.0, |view| view.pdf(to) * (view.solid_angle() / self.total))
+    }
+}

@@ -1,0 +1,171 @@
+//! All that shines: choosing a light, a point of it, and the density of both together.
+
+mod alias;
+mod area;
+mod spherical_rectangle;
+
+pub use alias::AliasTable;
+pub use area::Receiver;
+pub use spherical_rectangle::SphericalRectangle;
+
+use super::sky::{Sky, SkyKind};
+use crate::geometry::{Geometry, Hit, SurfacePoint};
+use crate::math::{DVec3, Rgb};
+use area::AreaLight;
+
+/// A choice made towards the lights.
+#[derive(Clone, Copy, Debug)]
+pub struct LightSample {
+    /// The chosen point, or the direction of the sky.
+    pub target: LightTarget,
+    /// Radiance that would arrive if nothing were in the way.
+    pub radiance: Rgb,
+    /// Density per solid angle at the receiver, of choosing the light and the point; > 0 and finite.
+    pub pdf: f64,
+}
+
+/// Where a [`LightSample`] lies.
+#[derive(Clone, Copy, Debug)]
+pub enum LightTarget {
+    /// A point of a surface that emits.
+    Surface(SurfacePoint),
+    /// A unit direction of the sky.
+    Sky(DVec3),
+}
+
+/// The emitting objects and the sky, as they are sampled.
+#[derive(Clone, Debug)]
+pub struct Lights {
+    lights: Vec<AreaLight>,
+    /// Index of the light of an object, or `u32::MAX`.
+    of_object: Vec<u32>,
+    /// Power of the sky over that of everything, where it is sampled at all.
+    sky_share: f64,
+    /// Choice by power; used when there are too many lights to weigh each one at every point.
+    table: AliasTable,
+}
+
+/// Up to this many lights are weighed at every point by their distance; beyond, power alone decides.
+const WEIGHED: usize = 16;
+
+impl Lights {
+    /// The lights among the objects; `emission` holds the radiance that each object emits. A constant sky is left to
+    /// the sampling of materials.
+    pub(super) fn new(geometry: &Geometry, emission: &[Rgb], sky: &Sky) -> Lights {
+        let mut lights = Vec::new();
+        let mut of_object = vec![u32::MAX; emission.len()];
+        let mut add = |object: u32, light: AreaLight| {
+            of_object[object as usize] = lights.len() as u32;
+            lights.push(light);
+        };
+        for (index, solid) in geometry.solids.iter().enumerate() {
+            let radiance = emission[solid.object as usize];
+            if radiance != Rgb::ZERO {
+                add(solid.object, AreaLight::of_solid(geometry, index as u32, radiance));
+            }
+        }
+        for (i, &(object, first)) in geometry.meshes.iter().enumerate() {
+            let radiance = emission[object as usize];
+            let end = geometry.meshes.get(i + 1).map_or(geometry.triangles.len() as u32, |&(_, next)| next);
+            if radiance != Rgb::ZERO && end > first {
+                add(object, AreaLight::of_mesh(geometry, first, end - first, radiance));
+            }
+        }
+        let powers: Vec<f64> = lights.iter().map(|light| light.power).collect();
+        let sky_share = match (sky.kind(), lights.is_empty()) {
+            (SkyKind::Gradient, true) => 1.0,
+            (SkyKind::Gradient, false) => SKY_SHARE,
+            _ => 0.0,
+        };
+        Lights { lights, of_object, sky_share, table: AliasTable::new(&powers) }
+    }
+
+    /// Number of objects that emit.
+    pub fn count(&self) -> usize {
+        self.lights.len()
+    }
+
+    /// Whether sampling lights can find anything.
+    pub fn can_sample(&self) -> bool {
+        !self.lights.is_empty() || self.sky_share > 0.0
+    }
+
+    /// Chooses a light and a point of it, from `u` in [0, 1)^3: the first chooses the light.
+    pub fn sample(&self, geometry: &Geometry, sky: &Sky, at: &Receiver, u: [f64; 3]) -> Option<LightSample> {
+        let (square, select) = ([u[1], u[2]], u[0]);
+        let sample = if select < self.sky_share {
+            let (direction, pdf) = sky.sample(square);
+            LightSample {
+                target: LightTarget::Sky(direction),
+                radiance: sky.radiance(direction),
+                pdf: pdf * self.sky_share,
+            }
+        } else {
+            let (light, probability) = self.choose(at, (select - self.sky_share) / (1.0 - self.sky_share))?;
+            let (point, pdf) = self.lights[light].sample(geometry, at, square)?;
+            let pdf = pdf * probability * (1.0 - self.sky_share);
+            LightSample { target: LightTarget::Surface(point), radiance: self.lights[light].radiance, pdf }
+        };
+        (sample.pdf > 0.0 && sample.pdf.is_finite()).then_some(sample)
+    }
+
+    /// Density per solid angle with which [`Lights::sample`] would have chosen a point of an emitting object.
+    pub fn pdf_surface(&self, at: &Receiver, hit: &Hit, point: &SurfacePoint) -> f64 {
+        let light = self.of_object[hit.object as usize] as usize;
+        if light >= self.lights.len() {
+            return 0.0;
+        }
+        self.lights[light].pdf(at, point, hit.part) * self.probability(at, light) * (1.0 - self.sky_share)
+    }
+
+    /// Density per solid angle with which [`Lights::sample`] would have chosen a direction of the sky.
+    pub fn pdf_sky(&self, sky: &Sky, direction: DVec3) -> f64 {
+        if self.sky_share > 0.0 { sky.pdf(direction) * self.sky_share } else { 0.0 }
+    }
+
+    /// A light and its probability.
+    fn choose(&self, at: &Receiver, u: f64) -> Option<(usize, f64)> {
+        match self.lights.len() {
+            0 => None,
+            1 => Some((0, 1.0)),
+            2..=WEIGHED => {
+                let (weights, total) = self.weights(at);
+                let mut rest = u * total;
+                let mut chosen = None;
+                for (light, &weight) in weights[..self.lights.len()].iter().enumerate() {
+                    if weight > 0.0 {
+                        chosen = Some((light, weight / total));
+                        if rest < weight {
+                            break;
+                        }
+                        rest -= weight;
+                    }
+                }
+                chosen
+            }
+            _ => self.table.sample(u).map(|(light, probability, _)| (light as usize, probability)),
+        }
+    }
+
+    fn probability(&self, at: &Receiver, light: usize) -> f64 {
+        match self.lights.len() {
+            1 => 1.0,
+            2..=WEIGHED => {
+                let (weights, total) = self.weights(at);
+                if total > 0.0 { weights[light] / total } else { 0.0 }
+            }
+            _ => self.table.probability(light as u32),
+        }
+    }
+
+    fn weights(&self, at: &Receiver) -> ([f64; WEIGHED], f64) {
+        let mut weights = [0.0; WEIGHED];
+        for (weight, light) in weights.iter_mut().zip(&self.lights) {
+            *weight = light.importance(at);
+        }
+        (weights, weights.iter().sum())
+    }
+}
+
+/// Share of the samples that a gradient sky gets beside other lights.
+const SKY_SHARE: f64 = 0.5;

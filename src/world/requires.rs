@@ -1,0 +1,80 @@
+//! What a scene needs: decided once, so that what it does not use costs nothing.
+
+use super::World;
+use super::sky::SkyKind;
+use crate::material::Material;
+use crate::scene::desc::{ApertureDesc, SceneDesc};
+use serde::Serialize;
+use std::fmt;
+
+/// What the renderer switches on for a scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Requires {
+    /// Triangles of meshes: a tree in f32.
+    pub triangles: usize,
+    /// Balls, boxes and rectangles that every ray is tried against.
+    pub linear_solids: usize,
+    /// Balls, boxes and rectangles in a tree of their own.
+    pub tree_solids: usize,
+    /// Objects that emit.
+    pub area_lights: usize,
+    /// What the sky is.
+    pub sky: SkyKind,
+    /// Whether rays are aimed at lights.
+    pub light_sampling: bool,
+    /// Whether the lens has a size.
+    pub lens: bool,
+    /// Whether normals of mesh files are kept.
+    pub shading_normals: bool,
+    /// Whether anything refracts.
+    pub refraction: bool,
+}
+
+impl Requires {
+    pub(super) fn of(desc: &SceneDesc, world: &World) -> Requires {
+        let diffuse = world.materials.iter().any(|material| !material.is_delta());
+        Requires {
+            triangles: world.geometry.triangles.len(),
+            linear_solids: world.geometry.linear_solids.len(),
+            tree_solids: world.geometry.tree_solids.len(),
+            area_lights: world.lights.count(),
+            sky: world.sky.kind(),
+            light_sampling: world.lights.can_sample() && diffuse,
+            lens: match desc.camera.aperture {
+                ApertureDesc::DepthOfField(size) | ApertureDesc::Radius(size) => size > 0.0,
+            },
+            shading_normals: !world.normals.indices.is_empty(),
+            refraction: world.materials.iter().any(|material| matches!(material, Material::Refractive(_))),
+        }
+    }
+}
+
+impl fmt::Display for Requires {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut parts = Vec::new();
+        if self.triangles > 0 {
+            parts.push(format!("a tree over {} triangles", self.triangles));
+        }
+        if self.tree_solids > 0 {
+            parts.push(format!("a tree over {} balls, boxes and rectangles", self.tree_solids));
+        }
+        if self.linear_solids > 0 {
+            parts.push(format!("{} shapes without a tree", self.linear_solids));
+        }
+        parts.push(match self.sky {
+            SkyKind::Black => "no sky".into(),
+            SkyKind::Constant => "a constant sky".into(),
+            SkyKind::Gradient => "a gradient sky".into(),
+        });
+        let mut option = |on: bool, name: &str| {
+            if on {
+                parts.push(name.into());
+            }
+        };
+        option(self.light_sampling, &format!("light sampling ({} area lights)", self.area_lights));
+        option(self.lens, "a lens");
+        option(self.shading_normals, "shading normals");
+        option(self.refraction, "refraction");
+        write!(f, "{}", parts.join(", "))
+    }
+}

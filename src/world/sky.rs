@@ -1,0 +1,115 @@
+//! The gradient sky: its radiance, and how to choose a direction towards it.
+
+use crate::math::{DVec3, Rgb, luminance};
+use crate::scene::desc::EnvironmentDesc;
+
+/// What a sky asks of the renderer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum SkyKind {
+    /// No light at all.
+    Black,
+    /// The same from everywhere; a diffuse surface samples it perfectly by itself.
+    Constant,
+    /// Varies with the height.
+    Gradient,
+}
+
+/// Radiance by the z component of the direction, with a tabulated distribution to sample it.
+#[derive(Clone, Debug)]
+pub struct Sky {
+    kind: SkyKind,
+    sky: Rgb,
+    horizon: Rgb,
+    ground: Rgb,
+    /// Cumulative probability at the borders of equal steps of z from -1 to 1; empty unless a gradient.
+    cumulative: Vec<f64>,
+}
+
+/// Steps of z in the table.
+const STEPS: usize = 256;
+
+impl Sky {
+    /// The sky of a scene.
+    pub(super) fn new(desc: &EnvironmentDesc) -> Sky {
+        let [sky, horizon, ground] = [desc.sky, desc.horizon, desc.ground].map(|color| color * desc.strength);
+        let kind = if [sky, horizon, ground] == [Rgb::ZERO; 3] {
+            SkyKind::Black
+        } else if sky == horizon && horizon == ground {
+            SkyKind::Constant
+        } else {
+            SkyKind::Gradient
+        };
+        let mut result = Sky { kind, sky, horizon, ground, cumulative: Vec::new() };
+        if kind == SkyKind::Gradient {
+            result.cumulative = result.tabulate();
+        }
+        result
+    }
+
+    /// What it asks of the renderer.
+    pub fn kind(&self) -> SkyKind {
+        self.kind
+    }
+
+    /// Radiance from the unit direction `d`.
+    pub fn radiance(&self, d: DVec3) -> Rgb {
+        match self.kind {
+            SkyKind::Black => Rgb::ZERO,
+            SkyKind::Constant => self.horizon,
+            SkyKind::Gradient => self.gradient(d.z),
+        }
+    }
+
+    fn gradient(&self, z: f64) -> Rgb {
+        let (end, exponent) = if z >= 0.0 { (self.sky, 0.8) } else { (self.ground, 0.1) };
+        self.horizon + (end - self.horizon) * libm::pow(z.abs().min(1.0), exponent)
+    }
+
+    /// A unit direction towards the sky with its density per solid angle, from `u` in [0, 1)^2. Only for gradients.
+    pub fn sample(&self, u: [f64; 2]) -> (DVec3, f64) {
+        let step = self.cumulative.partition_point(|&c| c <= u[0]).clamp(1, STEPS) - 1;
+        let share = self.cumulative[step + 1] - self.cumulative[step];
+        let z = height(step as f64 + ((u[0] - self.cumulative[step]) / share).clamp(0.0, 1.0));
+        let across = ((1.0 - z) * (1.0 + z)).max(0.0).sqrt();
+        let azimuth = std::f64::consts::TAU * u[1];
+        let d = DVec3::new(across * libm::cos(azimuth), across * libm::sin(azimuth), z);
+        (d, density(share))
+    }
+
+    /// Density per solid angle with which [`Sky::sample`] chooses `d`; zero unless a gradient.
+    pub fn pdf(&self, d: DVec3) -> f64 {
+        if self.kind != SkyKind::Gradient {
+            return 0.0;
+        }
+        let step = (((d.z + 1.0) * 0.5 * STEPS as f64) as usize).min(STEPS - 1);
+        density(self.cumulative[step + 1] - self.cumulative[step])
+    }
+
+    /// Each step's share is its luminance, integrated by four points, and a little more so that none is zero.
+    fn tabulate(&self) -> Vec<f64> {
+        let part = |step: usize| -> f64 {
+            (0..4).map(|i| luminance(self.gradient(height(step as f64 + (f64::from(i) + 0.5) / 4.0)))).sum()
+        };
+        let weights: Vec<f64> = (0..STEPS).map(part).collect();
+        let floor = weights.iter().sum::<f64>() / STEPS as f64 * 0.01;
+        let total: f64 = weights.iter().map(|w| w + floor).sum();
+        let mut cumulative = vec![0.0];
+        let mut sum = 0.0;
+        for weight in &weights {
+            sum += weight + floor;
+            cumulative.push(sum / total);
+        }
+        cumulative
+    }
+}
+
+/// z at a border of a step.
+fn height(step: f64) -> f64 {
+    2.0 * step / STEPS as f64 - 1.0
+}
+
+/// Density per solid angle in a step with this share.
+fn density(share: f64) -> f64 {
+    share * STEPS as f64 / (4.0 * std::f64::consts::PI)
+}

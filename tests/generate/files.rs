@@ -1,0 +1,27 @@
+//! The list of what the generator makes.
+
+use super::{blossom_tree, board, knight, spiral_scene};
+
+/// Every generated file: its path below the project's root and its content.
+pub(crate) fn all() -> Vec<(&'static str, String)> {
+    let tree = blossom_tree::grow();
+    vec![
+        (
+            "objects/board_dark.obj",
+            board::squares(board::Shade::Dark).to_obj("Dark squares of a chess board", 3),
+        ),
+        (
+            "objects/board_light.obj",
+            board::squares(board::Shade::Light).to_obj("Light squares of a chess board", 3),
+        ),
+        (
+            "objects/knight.obj",
+            knight::piece().to_obj("A knight of chess, 2 units high, looking along +x", 4),
+        ),
+        ("objects/tree_bark.obj", tree.bark.to_obj("A tree in blossom: trunk, boughs and twigs", 4)),
+        ("objects/tree_blossoms.obj", tree.blossoms.to_obj("A tree in blossom: the flowers", 3)),
+        ("objects/tree_leaves.obj", tree.leaves.to_obj("A tree in blossom: the young leaves", 3)),
+        ("objects/tree_petals.obj", tree.petals.to_obj("A tree in blossom: petals on the ground", 3)),
+        ("scenes/legacyBalls.yaml", spiral_scene::yaml()),
+    ]
+}

@@ -1,0 +1,115 @@
+//! Small scenes built in code, and the mean of what a camera sees in them.
+
+use pathtracer::accel::brute_force::BruteForce;
+use pathtracer::error::Location;
+use pathtracer::integrator::{Counters, PathTracer};
+use pathtracer::math::{DVec3, Rgb};
+use pathtracer::sampling::{Independent, Sampler};
+use pathtracer::scene::desc::{
+    ApertureDesc, Axes, CameraDesc, EnvironmentDesc, MaterialDesc, MaterialKind, MeshDesc, ObjectDesc,
+    SceneDesc, ShapeDesc,
+};
+use pathtracer::world::World;
+use std::sync::Arc;
+
+/// A grey.
+pub(crate) fn grey(value: f64) -> Rgb {
+    Rgb::splat(value)
+}
+
+pub(crate) fn diffuse(color: Rgb) -> MaterialKind {
+    MaterialKind::Diffuse { color, emission: Rgb::ZERO }
+}
+
+pub(crate) fn glowing(color: Rgb, emission: Rgb) -> MaterialKind {
+    MaterialKind::Diffuse { color, emission }
+}
+
+pub(crate) fn ball(position: DVec3, radius: f64) -> ShapeDesc {
+    ShapeDesc::Ball { position, radius }
+}
+
+pub(crate) fn cuboid(position: DVec3, size: DVec3, rotation: DVec3) -> ShapeDesc {
+    ShapeDesc::Box { position, size, rotation }
+}
+
+/// A horizontal square; its front is above with a turn of +90 degrees about y, below with -90.
+pub(crate) fn square(position: DVec3, side: f64) -> ShapeDesc {
+    ShapeDesc::Rectangle { position, width: side, height: side, rotation: DVec3::new(0.0, 90.0, 0.0) }
+}
+
+/// A mesh with coordinates as they are.
+pub(crate) fn mesh(positions: Vec<[f64; 3]>, triangles: Vec<[u32; 3]>) -> ShapeDesc {
+    let mesh = Arc::new(MeshDesc { positions, triangles, ..MeshDesc::default() });
+    ShapeDesc::TriangleMesh {
+        file: "mesh.obj".into(),
+        mesh,
+        scale: 1.0,
+        position: DVec3::ZERO,
+        rotation: DVec3::ZERO,
+        axes: Axes::ZUp,
+        smooth: false,
+    }
+}
+
+/// A scene with a black sky and a narrow camera at `eye` that looks at `target`.
+pub(crate) fn scene(eye: DVec3, target: DVec3, objects: Vec<(ShapeDesc, MaterialKind)>) -> SceneDesc {
+    let location = Location { file: "scene.yaml".into(), line: 1, column: 1 };
+    let object = |(shape, kind)| ObjectDesc {
+        name: None,
+        location: location.clone(),
+        shape,
+        material: MaterialDesc { name: None, kind },
+    };
+    SceneDesc {
+        file: "scene.yaml".into(),
+        camera: CameraDesc {
+            position: eye,
+            looking_at: target,
+            fov: 1e-9,
+            focus_distance: 1.0,
+            aperture: ApertureDesc::DepthOfField(0.0),
+            angle: 0.0,
+        },
+        environment: sky(0.0),
+        objects: objects.into_iter().map(object).collect(),
+    }
+}
+
+/// A constant grey sky.
+pub(crate) fn sky(value: f64) -> EnvironmentDesc {
+    EnvironmentDesc { sky: grey(value), horizon: grey(value), ground: grey(value), strength: 1.0 }
+}
+
+/// How a mean is measured.
+pub(crate) struct Measure {
+    pub(crate) samples: u64,
+    pub(crate) bounces: u32,
+    pub(crate) light_sampling: bool,
+}
+
+/// Every sample of a one-pixel picture, first channel.
+pub(crate) fn samples(desc: &SceneDesc, measure: &Measure) -> Vec<f64> {
+    let world = World::compile(desc).expect("a valid scene");
+    let camera = world.camera(&desc.camera, 1, 1);
+    let accelerator = BruteForce::new(&world.geometry);
+    let tracer = PathTracer::new(&world, &camera, &accelerator, measure.bounces, measure.light_sampling);
+    let sampler = Independent::new(1);
+    let mut counters = Counters::default();
+    (0..measure.samples).map(|index| tracer.sample(&sampler, 0, 0, index, &mut counters).x).collect()
+}
+
+/// Asserts that the mean of a one-pixel picture is `expected`: within four standard errors, which must be below
+/// `width` times `expected`.
+pub(crate) fn assert_mean(what: &str, desc: &SceneDesc, measure: &Measure, expected: f64, width: f64) {
+    let values = samples(desc, measure);
+    let n = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / n;
+    let variance = values.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>() / (n - 1.0);
+    let error = (variance / n).sqrt();
+    assert!(error <= width * expected, "{what}: standard error {error:e}, allowed {:e}", width * expected);
+    // Kinds of samples that are rarer than 10 / n are missing with a probability of at least e^-10; where light sampling
+    // meets material sampling they may carry that share of the mean without showing in the variance.
+    let allowed = (4.0 * error).max(10.0 / n * expected);
+    assert!((mean - expected).abs() <= allowed, "{what}: mean {mean}, expected {expected}, error {error:e}");
+}
