@@ -12,8 +12,8 @@ use crate::scene::yaml::value::{Range, Value};
 pub(super) const SECTION: Section = Section {
     name: "Object",
     keys: &[
-        "Type", "Name", "Material", "Position", "Radius", "Width", "Height", "Depth", "Rotation", "Filepath", "Scale",
-        "Axes", "Smooth",
+        "Type", "Name", "Material", "Position", "Radius", "Width", "Height", "Depth", "Rotation", "Filepath",
+        "Scale", "Axes", "Smooth",
     ],
 };
 
@@ -38,9 +38,10 @@ const CENTER: &str = "[x, y, z], the centre";
 
 /// Reads an item; `None` after an error.
 pub(super) fn read(item: Value<'_>, context: &mut Context<'_>) -> Option<ObjectDesc> {
-    if is_badly_indented(item) {
-        let help = "indent Type, Position and so on further than the word Object".to_owned();
-        item.error("has its keys beside Object instead of below it", Some(help), context.report);
+    if has_keys_of_object(item) {
+        let help =
+            "write \"- Object:\" and indent Type, Position and so on further than the word Object".to_owned();
+        item.error("has the keys of an object beside Object instead of below it", Some(help), context.report);
         return None;
     }
     let fields = Fields::open(item, &ITEM, &[], context.report)?;
@@ -55,11 +56,10 @@ pub(super) fn read(item: Value<'_>, context: &mut Context<'_>) -> Option<ObjectD
 }
 
 /// Whether the keys of an object stand beside the word `Object`, or without it: one mistake, and one message.
-fn is_badly_indented(item: Value<'_>) -> bool {
+fn has_keys_of_object(item: Value<'_>) -> bool {
     let Kind::Map(entries) = &item.node.kind else { return false };
-    let holds = |key: &str| entries.iter().any(|(k, _)| k.text() == Some(key));
-    let empty = |key: &str| entries.iter().any(|(k, v)| k.text() == Some(key) && matches!(v.kind, Kind::Null));
-    holds("Type") && (empty("Object") || !holds("Object"))
+    let value = |key: &str| entries.iter().find(|(k, _)| k.text() == Some(key)).map(|(_, value)| &value.kind);
+    value("Type").is_some() && matches!(value("Object"), None | Some(Kind::Null))
 }
 
 fn shape(fields: &Fields<'_>, context: &mut Context<'_>) -> Option<ShapeDesc> {
@@ -102,7 +102,8 @@ fn mesh(fields: &Fields<'_>, context: &mut Context<'_>) -> Option<ShapeDesc> {
     let path = fields.require("Filepath", "the OBJ file", report);
     let mesh = path.and_then(|value| context.meshes.get(value, report));
     let scale = fields.number_or("Scale", Range::Positive, 1.0, report);
-    let position = fields.vector("Position", Range::Finite, "[x, y, z], where the file's origin goes", report);
+    let position =
+        fields.vector("Position", Range::Finite, "[x, y, z], where the file's origin goes", report);
     let rotation = rotation(fields, report);
     let choices = [("YUp", Axes::YUp), ("ZUp", Axes::ZUp), ("SwapYZ", Axes::SwapYZ)];
     let axes = fields.get("Axes").map_or(Some(Axes::YUp), |value| value.choice(&choices, report));
