@@ -172,8 +172,14 @@ fn damaged_scenes_are_refused_or_read() {
     assert!(scene::parse(SCENE, Path::new("scene.yaml")).is_ok());
     for _ in 0..6000 {
         let bytes = mutate(SCENE, &mut random);
-        fs::write(&path, &bytes).unwrap();
-        check_places(&diagnostics_of(scene::load(&path)), &path, &bytes);
+        let outcome = match std::str::from_utf8(&bytes) {
+            Ok(text) => scene::parse(text, &path),
+            Err(_) => {
+                fs::write(&path, &bytes).unwrap();
+                scene::load(&path)
+            }
+        };
+        check_places(&diagnostics_of(outcome), &path, &bytes);
     }
 }
 
@@ -202,7 +208,7 @@ fn damaged_meshes_are_refused_or_read() {
     let text = format!("{CAMERA}Objects:\n{}", mesh_object("mesh.obj"));
     let mut random = Random(2);
     let mut read = 0;
-    for _ in 0..6000 {
+    for _ in 0..2000 {
         let bytes = mutate(MESH, &mut random);
         fs::write(&path, &bytes).unwrap();
         let outcome = scene::parse(&text, &folder.path().join("scene.yaml"));
@@ -216,5 +222,5 @@ fn damaged_meshes_are_refused_or_read() {
         check_places(&diagnostics_of(outcome), &path, &bytes);
     }
     // Most damage is found; damage to comments, names and digits is not.
-    assert!((500..5500).contains(&read), "{read}");
+    assert!((200..1800).contains(&read), "{read}");
 }
