@@ -4,7 +4,7 @@ use crate::error::{Diagnostic, Location, Severity};
 use std::path::Path;
 
 /// Bytes between two entries of [`Source::chars`].
-const STRIDE: usize = 4096;
+const STRIDE: usize = 256;
 
 /// A file's text, without a byte-order mark.
 pub(crate) struct Source<'t> {

@@ -27,6 +27,12 @@ fn lists_nested_a_hundred_thousand_deep() {
 }
 
 #[test]
+fn a_hundred_thousand_directives() {
+    let text: String = (0..100_000).map(|i| format!("%TAG !a{i}! x\n")).collect();
+    assert_eq!(only_message(&text), "the scene has more than 100 directives");
+}
+
+#[test]
 fn an_alias_of_a_long_list_repeated() {
     let mut text = format!("a: &a [{}]\nb: [", "1,".repeat(20_000));
     for _ in 0..1000 {

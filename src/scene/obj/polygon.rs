@@ -20,8 +20,8 @@ pub(super) fn split(corners: &[DVec3]) -> Split {
     let count = flat.len();
     let convex = (0..count).all(|i| {
         let turn = doubled_area(flat[i], flat[(i + 1) % count], flat[(i + 2) % count]);
-        // Also true for NaN: what overflows is not looked at more closely.
-        !(turn <= 0.0)
+        // What overflows is not looked at more closely.
+        turn > 0.0 || turn.is_nan()
     });
     if convex || count > MAX_CONCAVE {
         let triangles = (2..count).map(|i| [0, i - 1, i]).collect();

@@ -16,6 +16,8 @@ use std::path::Path;
 pub(crate) const MAX_BYTES: u64 = 256 << 20;
 /// Most brackets that may be open at once: the parser's time grows with their number at every token.
 const MAX_BRACKETS: usize = 1000;
+/// Most lines that may start with `%`: the parser compares each directive with all before it.
+const MAX_DIRECTIVES: usize = 100;
 /// Most characters that may start a value, which bounds the parser's memory before it starts.
 const MAX_INDICATORS: usize = 2 * MAX_VALUES;
 
@@ -78,19 +80,25 @@ pub(crate) fn parse<'t>(source: &Source<'t>) -> Result<Node<'t>, Box<Diagnostic>
 /// The first thing in `text` that the parser must not see: a character that is not text, or input that would cost
 /// it too much time or memory. Brackets in comments and quotes count too, which no real scene notices.
 fn beyond_limits(text: &str) -> Option<(usize, String)> {
-    let (mut open, mut indicators) = (0usize, 0usize);
+    let (mut open, mut directives, mut indicators) = (0usize, 0usize, 0usize);
+    let mut before = '\n';
     for (offset, c) in text.char_indices() {
         match c {
             '[' | '{' => open += 1,
             ']' | '}' => open = open.saturating_sub(1),
+            '%' if before == '\n' => directives += 1,
             _ => {}
         }
+        before = c;
         indicators += usize::from(matches!(c, '[' | '{' | ',' | ':' | '-' | '?' | '\n'));
         if !is_allowed(c) {
             return Some((
                 offset,
                 format!("the scene file is no text: it holds the character U+{:04X}", c as u32),
             ));
+        }
+        if directives > MAX_DIRECTIVES {
+            return Some((offset, format!("the scene has more than {MAX_DIRECTIVES} directives")));
         }
         if open > MAX_BRACKETS {
             return Some((offset, format!("more than {MAX_BRACKETS} brackets are open")));

@@ -10,8 +10,8 @@ use serde::de::{DeserializeSeed, Deserializer, Error, IgnoredAny, MapAccess, Seq
 use std::cell::RefCell;
 use std::fmt;
 
-/// Bytes that the one-by-one search may parse in all. What is left then has no place.
-const SEARCH_BUDGET: usize = 64 << 20;
+/// Bytes that the one-by-one search may parse in all, about a second's worth. What is left then has no place.
+const SEARCH_BUDGET: usize = 16 << 20;
 
 /// A place that is looked for: the child indices from the root, counting entries of mappings too.
 pub(crate) struct Target {
