@@ -89,8 +89,8 @@ impl<T> Query<T> {
 ///
 /// # Safety
 /// `scene` is a committed scene that no other thread changes, and its buffers, user data and callbacks are alive. The
-/// ray holds no NaN and no infinity but `tfar`, `hit.geomID` and `hit.instID` are [`INVALID_ID`], and `T` is what the
-/// callbacks of the scene expect.
+/// ray holds no NaN and no infinity but `tfar`, the hit is [`no_hit`], and `T` is what the callbacks of the scene
+/// expect.
 pub unsafe fn intersect1<T>(scene: RTCScene, query: &mut Query<T>, rayhit: &mut RTCRayHit) {
     let context = (&raw mut *query).cast::<QueryContext>();
     #[cfg(embree3)]
@@ -146,6 +146,12 @@ pub unsafe fn new_geometry(device: RTCDevice, kind: RTCGeometryType) -> RTCGeome
         }
         geometry
     }
+}
+
+/// The hit of a ray before [`intersect1`].
+pub fn no_hit() -> RTCHit {
+    let outside = [INVALID_ID; raw::RTC_MAX_INSTANCE_LEVEL_COUNT as usize];
+    RTCHit { geomID: INVALID_ID, primID: INVALID_ID, instID: outside, ..Default::default() }
 }
 
 /// What an error code means.

@@ -1,5 +1,4 @@
 //! The whole surface once against the library found: a triangle, a user geometry, the filters, the errors.
-#![allow(clippy::undocumented_unsafe_blocks)] // every block here is a call of the C interface on handles made just above
 
 use embree_sys::*;
 use std::ffi::{CStr, c_char, c_void};
@@ -28,6 +27,7 @@ struct Scene {
 
 impl Drop for Scene {
     fn drop(&mut self) {
+        // SAFETY: both handles are live and used nowhere else.
         unsafe {
             rtcReleaseScene(self.scene);
             rtcReleaseDevice(self.device);
@@ -36,6 +36,7 @@ impl Drop for Scene {
 }
 
 unsafe extern "C" fn bounds(args: *const RTCBoundsFunctionArguments) {
+    // SAFETY: Embree passes valid arguments.
     unsafe {
         let bounds = (*args).bounds_o;
         ((*bounds).lower_x, (*bounds).lower_y, (*bounds).lower_z) = (-1.0, -1.0, PLANE);
@@ -47,6 +48,7 @@ unsafe extern "C" fn bounds(args: *const RTCBoundsFunctionArguments) {
 const PLANE_T: f32 = 1.0 - PLANE;
 
 unsafe extern "C" fn intersect(args: *const RTCIntersectFunctionNArguments) {
+    // SAFETY: Embree passes valid arguments for one ray, of a `Query<Seen>`.
     unsafe {
         assert_eq!(((*args).N, *(*args).valid), (1, -1));
         (*Query::<Seen>::data((*args).context)).user_calls += 1;
@@ -59,6 +61,7 @@ unsafe extern "C" fn intersect(args: *const RTCIntersectFunctionNArguments) {
 }
 
 unsafe extern "C" fn occluded(args: *const RTCOccludedFunctionNArguments) {
+    // SAFETY: Embree passes valid arguments for one ray, of a `Query<Seen>`.
     unsafe {
         (*Query::<Seen>::data((*args).context)).user_calls += 1;
         if PLANE_T < ray_tfar((*args).ray) {
@@ -68,6 +71,7 @@ unsafe extern "C" fn occluded(args: *const RTCOccludedFunctionNArguments) {
 }
 
 unsafe extern "C" fn filter(args: *const RTCFilterFunctionNArguments) {
+    // SAFETY: Embree passes valid arguments for one ray, of a `Query<Seen>`.
     unsafe {
         let seen = Query::<Seen>::data((*args).context);
         (*seen).filter_calls += 1;
@@ -81,6 +85,7 @@ unsafe extern "C" fn filter(args: *const RTCFilterFunctionNArguments) {
 
 /// A triangle in z = 0 around the origin, and the plane below it.
 fn scene() -> Scene {
+    // SAFETY: every handle is used while it lives; the buffers live as long as the scene, the last vertex is padded.
     unsafe {
         let device = rtcNewDevice(ptr::null());
         assert!(!device.is_null());
@@ -117,9 +122,9 @@ fn ray(x: f32, y: f32, tfar: f32, mask: u32) -> RTCRay {
 }
 
 fn closest(scene: &Scene, ray: RTCRay, refuse: Option<(u32, u32)>) -> (f32, u32, u32, Seen) {
-    let nothing = RTCHit { geomID: INVALID_ID, instID: [INVALID_ID], ..Default::default() };
-    let mut rayhit = RTCRayHit { ray, hit: nothing };
+    let mut rayhit = RTCRayHit { ray, hit: no_hit() };
     let mut query = Query::new(Seen { refuse, ..Default::default() });
+    // SAFETY: the scene is committed, the ray is finite, and the callbacks expect `Seen`.
     unsafe { intersect1(scene.scene, &mut query, &mut rayhit) };
     (rayhit.ray.tfar, rayhit.hit.geomID, rayhit.hit.primID, query.data)
 }
@@ -128,6 +133,7 @@ fn closest(scene: &Scene, ray: RTCRay, refuse: Option<(u32, u32)>) -> (f32, u32,
 fn the_version_is_that_of_the_header() {
     let scene = scene();
     let loaded = [RTC_DEVICE_PROPERTY_VERSION_MAJOR, RTC_DEVICE_PROPERTY_VERSION_MINOR]
+        // SAFETY: the device is live.
         .map(|property| unsafe { rtcGetDeviceProperty(scene.device, property) });
     assert_eq!(loaded, [RTC_VERSION_MAJOR as isize, RTC_VERSION_MINOR as isize]);
 }
@@ -162,6 +168,7 @@ fn occlusion_respects_the_filter_and_the_range() {
     let blocked = |tfar, refuse| {
         let mut ray = ray(0.0, 0.0, tfar, 1);
         let mut query = Query::new(Seen { refuse, ..Default::default() });
+        // SAFETY: as in `closest`.
         unsafe { occluded1(scene.scene, &mut query, &mut ray) };
         ray.tfar < 0.0
     };
@@ -181,11 +188,13 @@ unsafe extern "C" fn record(user: *mut c_void, code: RTCError, text: *const c_ch
 fn an_error_reaches_the_callback_with_its_code() {
     let scene = scene();
     let mut error = (RTC_ERROR_NONE, String::new());
+    // SAFETY: the device outlives the geometry, and `error` the last call that may report one.
     unsafe {
         rtcSetDeviceErrorFunction(scene.device, Some(record), (&raw mut error).cast());
         let geometry = new_geometry(scene.device, RTC_GEOMETRY_TYPE_TRIANGLE);
         rtcSetGeometryUserPrimitiveCount(geometry, 1);
         rtcReleaseGeometry(geometry);
+        rtcSetDeviceErrorFunction(scene.device, None, ptr::null_mut());
     }
     assert_eq!(error_text(error.0), "invalid operation", "{}", error.1);
 }
