@@ -179,6 +179,8 @@ fn occlusion_respects_the_filter_and_the_range() {
 }
 
 unsafe extern "C" fn record(user: *mut c_void, code: RTCError, text: *const c_char) {
+    // SAFETY: `user` is the pair that the test registered, `text` a C string.
+    // SAFETY: `user` is the pair that the test registered, `text` a C string.
     unsafe {
         *user.cast::<(RTCError, String)>() = (code, CStr::from_ptr(text).to_string_lossy().into_owned())
     };
