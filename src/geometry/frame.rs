@@ -110,6 +110,10 @@ impl LocalFrame {
             let advance = enter_sphere(offset, ray.direction, self.radius * 1.01)?;
             origin += ray.direction * advance;
             shift = advance / self.scale;
+            // From so far away that the sphere drowns in the rounding, nothing can be told apart.
+            if !((origin - self.center).length_squared() <= near * near) {
+                return None;
+            }
         }
         let local_t_max = (t_max - shift) * self.scale;
         if local_t_max <= 0.0 {
@@ -135,11 +139,9 @@ const ROUNDING_SLACK: f64 = 1.0 / 1_048_576.0;
 /// Distance at which a ray from `offset` (relative to the centre, outside) enters the sphere.
 fn enter_sphere(offset: DVec3, direction: DVec3, radius: f64) -> Option<f64> {
     let along = -offset.dot(direction);
-    if along <= 0.0 {
-        return None;
-    }
     let perpendicular = (offset + direction * along).length();
-    if perpendicular > radius {
+    // Written so that an overflow is a miss.
+    if !(along > 0.0 && perpendicular <= radius) {
         return None;
     }
     Some((along - ((radius - perpendicular) * (radius + perpendicular)).sqrt()).max(0.0))

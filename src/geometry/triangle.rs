@@ -58,7 +58,8 @@ pub fn intersect_triangle(origin: DVec3, direction: DVec3, corners: [DVec3; 3]) 
 }
 
 /// Where the line meets the plane of a triangle that another kernel says it hits: (t, u, v), the weights pulled into
-/// the triangle. `None` for triangles without area and for rays in the triangle's plane.
+/// the triangle; where [`intersect_triangle`] finds a hit, the same bits. `None` for triangles without area and for
+/// rays in the triangle's plane.
 pub fn plane_hit(origin: DVec3, direction: DVec3, corners: [DVec3; 3]) -> Option<(f64, f64, f64)> {
     let [a, b, c] = corners.map(|corner| corner - origin);
     let (wa, wb, wc) = (edge(b, c, direction), edge(c, a, direction), edge(a, b, direction));
@@ -68,7 +69,11 @@ pub fn plane_hit(origin: DVec3, direction: DVec3, corners: [DVec3; 3]) -> Option
     if sum == 0.0 || cosine == 0.0 {
         return None;
     }
-    let inside = [wa / sum, wb / sum, wc / sum].map(|w| w.clamp(0.0, 1.0));
+    let weights = [wa / sum, wb / sum, wc / sum];
+    if weights.iter().all(|&w| w >= 0.0) {
+        return Some((a.dot(normal) / cosine, weights[1], weights[2]));
+    }
+    let inside = weights.map(|w| w.clamp(0.0, 1.0));
     let total = inside[0] + inside[1] + inside[2];
     Some((a.dot(normal) / cosine, inside[1] / total, inside[2] / total))
 }
