@@ -125,7 +125,8 @@ impl Settings {
             ("chunk", self.chunk.into(), u32::MAX.into()),
             ("threads", self.threads.map_or(1, |threads| threads as u64), MAX_THREADS as u64),
         ];
-        if let Some((name, value, most)) = ranges.iter().find(|(_, value, most)| !(1..=*most).contains(value)) {
+        if let Some((name, value, most)) = ranges.iter().find(|(_, value, most)| !(1..=*most).contains(value))
+        {
             return Err(Error::Usage(format!("{name} must be from 1 to {most}, not {value}")));
         }
         if self.accel == AccelKind::Embree && !cfg!(feature = "embree") {
@@ -213,7 +214,7 @@ where
     F: Fn(u32, u32, u64, &mut Counters) -> Rgb + Sync,
 {
     settings.check()?;
-    in_pool(settings, || take_samples(settings, watch, sample))
+    in_pool(settings, || take_samples(settings, watch, &sample))
 }
 
 /// A render on its way to its types.
@@ -318,7 +319,8 @@ fn in_pool<T: Send>(settings: &Settings, work: impl FnOnce() -> Result<T> + Send
 
 fn panic_message(payload: &(dyn Any + Send)) -> &str {
     let text = payload.downcast_ref::<&str>().copied();
-    text.or_else(|| payload.downcast_ref::<String>().map(String::as_str)).unwrap_or("a panic without a message")
+    text.or_else(|| payload.downcast_ref::<String>().map(String::as_str))
+        .unwrap_or("a panic without a message")
 }
 
 fn no_embree() -> Error {
