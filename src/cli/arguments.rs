@@ -147,7 +147,7 @@ impl Arguments {
             Ok(parsed) => parsed.command.is_none() && parsed.render.image.is_none(),
             Err(error) => error.use_stderr(),
         };
-        match arguments.get(1).and_then(|word| misspelt_command(word)).filter(|_| is_wrong) {
+        match misplaced_command(arguments).filter(|_| is_wrong) {
             Some(message) => Err(Error::Usage(message).into()),
             None => Ok(parsed?),
         }
@@ -210,12 +210,20 @@ fn usage(message: &str) -> Error {
 }
 
 /// What to say if the first word stands where a scene would, is no file and looks like a command.
-fn misspelt_command(word: &std::ffi::OsStr) -> Option<String> {
-    let word = word.to_str().filter(|word| !word.starts_with('-') && !Path::new(word).exists())?;
+fn misplaced_command(arguments: &[OsString]) -> Option<String> {
+    let words = arguments.iter().enumerate().skip(1).filter_map(|(i, word)| Some((i, word.to_str()?)));
+    let (place, word) = words.into_iter().find(|(_, word)| !word.starts_with('-'))?;
+    if Path::new(word).exists() {
+        return None;
+    }
     let commands = Arguments::command();
     let mut names = commands.get_subcommands().map(clap::Command::get_name);
-    let close = names.find(|name| (1..=2).contains(&edit_distance(word, name)))?;
-    Some(format!("there is no scene file '{word}'; did you mean the command '{close}'?"))
+    let close = names.find(|name| edit_distance(word, name) <= 2)?;
+    match (close == word, place) {
+        (true, 1) => None,
+        (true, _) => Some(format!("the command '{close}' must come first")),
+        (false, _) => Some(format!("there is no scene file '{word}'; did you mean the command '{close}'?")),
+    }
 }
 
 /// Levenshtein's distance in bytes.

@@ -155,11 +155,17 @@ impl Event<'_> {
     }
 
     pub(super) fn error(code: u8, error: &anyhow::Error) -> Event<'static> {
-        let diagnostics = match error.downcast_ref::<Error>() {
-            Some(Error::Scene(diagnostics)) => diagnostics.iter().map(DiagnosticRecord::new).collect(),
-            _ => Vec::new(),
-        };
-        Event::Error { code, message: error.to_string(), diagnostics }
+        match error.downcast_ref::<Error>() {
+            Some(Error::Scene(all)) => {
+                let diagnostics = all.iter().map(DiagnosticRecord::new).collect();
+                Event::Error { code, message: "the scene has mistakes".into(), diagnostics }
+            }
+            _ => {
+                let text = error.to_string();
+                let message = text.strip_prefix("error: ").unwrap_or(&text).trim_end().to_owned();
+                Event::Error { code, message, diagnostics: Vec::new() }
+            }
+        }
     }
 }
 
