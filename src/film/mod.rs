@@ -117,9 +117,8 @@ impl Film {
     fn are_halves(&self, left: usize) -> bool {
         let (Some(a), Some(b)) = (self.nodes.get(left), self.nodes.get(left + 1)) else { return false };
         let is_complete = |node: &Node| node.samples == node.chunks * self.chunk;
-        let fit = a.chunks == b.chunks
-            && (a.first / a.chunks).is_multiple_of(2)
-            && a.first + a.chunks == b.first;
+        let fit =
+            a.chunks == b.chunks && (a.first / a.chunks).is_multiple_of(2) && a.first + a.chunks == b.first;
         fit && is_complete(a) && is_complete(b)
     }
 }

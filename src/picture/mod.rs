@@ -60,7 +60,9 @@ impl Destination {
         let failed = |source| Error::Io { action: "write the picture".into(), path: path.into(), source };
         let target = match fs::metadata(path) {
             Ok(found) if found.is_dir() => return Err(failed(io::ErrorKind::IsADirectory.into())),
-            Ok(found) if !found.is_file() => return Err(failed(io::Error::other("it is not a regular file"))),
+            Ok(found) if !found.is_file() => {
+                return Err(failed(io::Error::other("it is not a regular file")));
+            }
             // The file behind a symbolic link is replaced, not the link.
             Ok(_) => fs::canonicalize(path).map_err(failed)?,
             Err(_) => path.to_path_buf(),
