@@ -5,6 +5,7 @@
 //! back by the key of [`crate::geometry`].
 
 pub mod brute_force;
+pub mod bvh;
 
 use crate::geometry::{Geometry, Hit, LocalFrame, LocalRay, PrimitiveId, Ray, TriangleHit};
 
