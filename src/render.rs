@@ -19,7 +19,7 @@ use crate::integrator::{Counters, PathTracer};
 use crate::math::Rgb;
 use crate::sampling::{Independent, Sampler, SamplerKind, Sobol};
 use crate::scene::desc::CameraDesc;
-use crate::world::{Camera, World};
+use crate::world::World;
 use rayon::prelude::*;
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -239,7 +239,7 @@ impl Run<'_> {
 
     fn with_sampler<A: Accelerator, S: Sampler>(&self, accel: &A, sampler: S) -> Result<Rendered> {
         let Settings { width, height, bounces, light_sampling, .. } = *self.settings;
-        let camera = Camera::new(self.camera, self.world, width, height);
+        let camera = self.world.camera(self.camera, width, height);
         let tracer = PathTracer::new(self.world, &camera, accel, bounces, light_sampling);
         take_samples(self.settings, self.watch, |x, y, index, counters| {
             tracer.sample(&sampler, x, y, index, counters)

@@ -1,5 +1,18 @@
 //! One test binary; `cargo test TOPIC` runs one topic, named as its module here.
 
+/// Statistics, oracles, scenes: what the topics share.
+mod support;
+
+/// The committed meshes and scenes are what their generator makes.
+mod assets;
+/// The makers of the committed meshes and scenes.
+mod generate;
+
+/// Every lobe against its density, its colour, its limits.
+mod material;
+/// The samplers and the warps.
+mod sampling;
+
 /// Embree: the oracle's hits at exact, the promises of robust and fast, refusals.
 #[cfg(feature = "embree")]
 mod embree;

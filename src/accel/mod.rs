@@ -7,6 +7,7 @@
 pub mod brute_force;
 #[cfg(feature = "embree")]
 pub mod embree;
+pub mod bvh;
 
 use crate::geometry::{Geometry, Hit, LocalFrame, LocalRay, PrimitiveId, Ray, TriangleHit};
 

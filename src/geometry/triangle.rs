@@ -79,6 +79,9 @@ pub fn plane_hit(origin: DVec3, direction: DVec3, corners: [DVec3; 3]) -> Option
 }
 
 impl TriangleBlock {
+    /// The most triangles in a block.
+    pub const LANES: usize = 8;
+
     /// Packs one to eight triangles, given as (index, corners). More than eight, or none, are a fault of the caller:
     /// the rest is left out.
     pub fn new(triangles: impl IntoIterator<Item = (u32, [[f32; 3]; 3])>) -> TriangleBlock {
@@ -111,6 +114,18 @@ impl TriangleBlock {
             }
         }
         (low, high)
+    }
+
+    /// The coordinates, by corner, axis and lane; 0 in unused lanes.
+    #[inline(always)]
+    pub(crate) fn corner_lanes(&self) -> &[[[f32; 8]; 3]; 3] {
+        &self.corners
+    }
+
+    /// The index of the triangle in a lane below 8.
+    #[inline(always)]
+    pub(crate) fn lane_index(&self, lane: usize) -> u32 {
+        self.indices[lane]
     }
 
     fn corners_of(&self, lane: usize) -> [DVec3; 3] {
