@@ -36,7 +36,7 @@ pub struct Diagnostic {
     pub message: String,
     /// Where, if there is a place.
     pub location: Option<Location>,
-    /// The text of the line at `location`.
+    /// The text of the line at `location`, as [`Diagnostic::excerpt`] gives it.
     pub source_line: Option<String>,
     /// What would be right ("did you mean ...").
     pub help: Option<String>,
@@ -45,6 +45,40 @@ pub struct Diagnostic {
 impl fmt::Display for Location {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}:{}:{}", self.file.display(), self.line, self.column)
+    }
+}
+
+/// Characters of a long line that an excerpt shows before the place.
+const EXCERPT_BEFORE: usize = 60;
+/// Characters of a long line that an excerpt shows from the place on.
+const EXCERPT_AFTER: usize = 60;
+/// What stands for a piece of a line that was left out.
+const ELLIPSIS: char = '\u{2026}';
+
+impl Diagnostic {
+    /// The part of `line` around `column` that is worth showing: the whole line if it is short, else some
+    /// characters before and after, with an ellipsis for each piece left out. Control characters become U+FFFD,
+    /// so that a file can't talk to the terminal.
+    pub fn excerpt(line: &str, column: usize) -> String {
+        let place = column.saturating_sub(1);
+        let cut = place > EXCERPT_BEFORE + EXCERPT_AFTER;
+        let first = if cut { place - EXCERPT_BEFORE } else { 0 };
+        let mut excerpt: String = if cut { ELLIPSIS.to_string() } else { String::new() };
+        let mut rest = line.chars().skip(if cut { first + 1 } else { 0 });
+        let visible = |c: char| if c.is_control() && c != '\t' { char::REPLACEMENT_CHARACTER } else { c };
+        excerpt.extend(rest.by_ref().take(place + EXCERPT_AFTER - first).map(visible));
+        if rest.next().is_some() {
+            excerpt.push(ELLIPSIS);
+        }
+        excerpt
+    }
+
+    /// Blanks that bring a caret below the place in an excerpt; a tab stays a tab.
+    fn indent(excerpt: &str, column: usize) -> String {
+        let place = column.saturating_sub(1);
+        let cut = place > EXCERPT_BEFORE + EXCERPT_AFTER && excerpt.starts_with(ELLIPSIS);
+        let before = if cut { EXCERPT_BEFORE } else { place };
+        excerpt.chars().take(before).map(|c| if c == '\t' { '\t' } else { ' ' }).collect()
     }
 }
 
@@ -60,11 +94,7 @@ impl fmt::Display for Diagnostic {
             write!(f, "\n  --> {location}")?;
             if let Some(line) = &self.source_line {
                 let number = location.line.to_string();
-                let indent: String = line
-                    .chars()
-                    .take(location.column - 1)
-                    .map(|c| if c == '\t' { '\t' } else { ' ' })
-                    .collect();
+                let indent = Diagnostic::indent(line, location.column);
                 write!(f, "\n {number} | {line}\n {:width$} | {indent}^", "", width = number.len())?;
             }
         }

@@ -1,3 +1,66 @@
-//! What the scene file says.
+//! What the scene file says: YAML text becomes a [`desc::SceneDesc`] with its meshes, or every mistake in it with
+//! its place.
+//!
+//! The way: `yaml` parses the text into a tree of values, `read` gives the keys their meaning, `meshes` and `obj`
+//! read what the scene names, `diagnostic` collects what is wrong and `source` knows the lines.
 
 pub mod desc;
+
+mod diagnostic;
+mod meshes;
+mod obj;
+mod read;
+mod source;
+mod yaml;
+
+use crate::error::{Diagnostic, Error, Result};
+use desc::SceneDesc;
+use diagnostic::Report;
+use source::Source;
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+/// A scene that can be rendered.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// What the file says.
+    pub desc: SceneDesc,
+    /// What the user should know, in the order of the file.
+    pub warnings: Vec<Diagnostic>,
+}
+
+/// Reads the scene file at `path` and the meshes that it names.
+///
+/// # Errors
+/// [`Error::Io`] if the scene file can't be read; [`Error::Scene`] with all errors and warnings of the scene and its
+/// meshes if it holds a mistake.
+pub fn load(path: &Path) -> Result<Scene> {
+    let failed = |source| Error::Io { action: "read the scene".into(), path: path.to_path_buf(), source };
+    let mut bytes = Vec::new();
+    File::open(path).and_then(|file| file.take(yaml::MAX_BYTES + 1).read_to_end(&mut bytes)).map_err(failed)?;
+    let text = yaml::decode(&bytes, path).map_err(|diagnostic| Error::Scene(vec![*diagnostic]))?;
+    read_text(text, path)
+}
+
+/// Reads a scene from `text` as if it stood in `file`, whose folder is where meshes are looked for first.
+///
+/// # Errors
+/// [`Error::Scene`] as for [`load`].
+pub fn parse(text: &str, file: &Path) -> Result<Scene> {
+    let text = yaml::decode(text.as_bytes(), file).map_err(|diagnostic| Error::Scene(vec![*diagnostic]))?;
+    read_text(text, file)
+}
+
+fn read_text(text: &str, file: &Path) -> Result<Scene> {
+    let source = Source::new(file, text);
+    let root = yaml::parse(&source).map_err(|diagnostic| Error::Scene(vec![*diagnostic]))?;
+    let mut report = Report::default();
+    let desc = read::read(&root, file, &source, &mut report);
+    let renderable = report.is_renderable();
+    let diagnostics = report.into_diagnostics(&source);
+    match desc {
+        Some(desc) if renderable => Ok(Scene { desc, warnings: diagnostics }),
+        _ => Err(Error::Scene(diagnostics)),
+    }
+}

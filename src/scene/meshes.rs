@@ -1,0 +1,123 @@
+//! Finding the mesh files that a scene names, and reading each of them once.
+
+use super::desc::MeshDesc;
+use super::diagnostic::{Finding, Report, quote};
+use super::obj::{self, Failure, Fault};
+use super::yaml::value::Value;
+use crate::error::{Location, Severity};
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// The mesh files of one scene.
+pub(crate) struct Meshes {
+    folder: PathBuf,
+    /// By canonical path; `None` for a file that could not be read, which was reported.
+    read: HashMap<PathBuf, Option<Arc<MeshDesc>>>,
+}
+
+impl Meshes {
+    /// The meshes named in the scene file `file`.
+    pub(crate) fn beside(file: &Path) -> Meshes {
+        let folder = file.parent().unwrap_or(Path::new("")).to_path_buf();
+        Meshes { folder, read: HashMap::new() }
+    }
+
+    /// The mesh that the `Filepath` in `value` names, and the file that was found.
+    pub(crate) fn get(&mut self, value: Value<'_>, report: &mut Report) -> Option<(PathBuf, Arc<MeshDesc>)> {
+        let name = value.text("the name of an OBJ file", report)?;
+        let path = self.find(name, value, report)?;
+        let key = path.canonicalize().unwrap_or_else(|_| path.clone());
+        let mesh = match self.read.get(&key) {
+            Some(mesh) => mesh.clone(),
+            None => {
+                let mesh = read(&path, value, report).map(Arc::new);
+                self.read.insert(key, mesh.clone());
+                mesh
+            }
+        };
+        Some((path, mesh?))
+    }
+
+    /// The file called `name`: in the scene's folder, else in the working directory.
+    fn find(&self, name: &str, value: Value<'_>, report: &mut Report) -> Option<PathBuf> {
+        let mut places = vec![self.folder.join(name)];
+        if !places.contains(&PathBuf::from(name)) {
+            places.push(PathBuf::from(name));
+        }
+        if let Some(found) = places.iter().find(|path| path.is_file()) {
+            return Some(found.clone());
+        }
+        if let Some(other) = places.iter().find(|path| path.exists()) {
+            let what = if other.is_dir() { "a folder" } else { "no regular file" };
+            value.error(&format!("must be an OBJ file, but {} is {what}", shown(other)), None, report);
+            return None;
+        }
+        let tried: Vec<String> = places.iter().map(|path| shown(path)).collect();
+        let help = "a mesh is looked for beside the scene file, then in the working directory".to_owned();
+        value.error(&format!("names no file: tried {}", tried.join(" and ")), Some(help), report);
+        None
+    }
+}
+
+fn shown(path: &Path) -> String {
+    quote(&path.display().to_string())
+}
+
+/// Reads a mesh and reports what is wrong with it.
+fn read(path: &Path, value: Value<'_>, report: &mut Report) -> Option<MeshDesc> {
+    let loaded = match obj::load(path) {
+        Ok(loaded) => loaded,
+        Err(Failure::Unreadable(reason)) => {
+            value.error(&format!("names {}, which cannot be read: {reason}", shown(path)), None, report);
+            return None;
+        }
+        Err(Failure::Faults { first, more }) => {
+            for fault in first {
+                report_fault(fault, path, value, report);
+            }
+            if more > 0 {
+                value.error(&format!("names a mesh with {more} more errors: {}", shown(path)), None, report);
+            }
+            return None;
+        }
+    };
+    if loaded.mesh.triangles.is_empty() {
+        let what = if loaded.dropped > 0 { "whose faces have no area" } else { "without faces" };
+        value.error(&format!("names a mesh {what}: {}", shown(path)), None, report);
+        return None;
+    }
+    if loaded.dropped > 0 {
+        let faces = if loaded.dropped == 1 { "1 face".into() } else { format!("{} faces", loaded.dropped) };
+        warn(format!(": {faces} without area dropped from {}", shown(path)), value, report);
+    }
+    if loaded.fanned > 0 {
+        let text = format!(": {} concave faces of {} have too many corners to be split properly", loaded.fanned, shown(path));
+        warn(text, value, report);
+    }
+    Some(loaded.mesh)
+}
+
+fn warn(text: String, value: Value<'_>, report: &mut Report) {
+    report.push(Finding {
+        severity: Severity::Warning,
+        subject: value.path.to_string(),
+        text,
+        help: None,
+        place: value.place(),
+        elsewhere: None,
+    });
+}
+
+/// Reports an error in the mesh file, with the place there and who named the file.
+fn report_fault(fault: Fault, path: &Path, value: Value<'_>, report: &mut Report) {
+    let location = Location { file: path.to_path_buf(), line: fault.line, column: fault.column };
+    report.push(Finding {
+        severity: Severity::Error,
+        subject: String::new(),
+        text: fault.message,
+        help: Some(format!("the mesh is named by {}", value.path)),
+        place: value.place(),
+        elsewhere: Some((location, fault.excerpt)),
+    });
+}

@@ -1,0 +1,102 @@
+//! The `Material` section of an object.
+
+use super::PICTURES;
+use crate::math::Rgb;
+use crate::scene::desc::{MaterialDesc, MaterialKind};
+use crate::scene::diagnostic::Report;
+use crate::scene::yaml::fields::{Fields, Section};
+use crate::scene::yaml::node::Kind;
+use crate::scene::yaml::value::{Range, Value};
+
+/// The keys of all materials.
+pub(super) const SECTION: Section = Section {
+    name: "Material",
+    keys: &[
+        "Type",
+        "Name",
+        "Color",
+        "EmissionStrength",
+        "EmissionColor",
+        "Specularity",
+        "ClearCoat",
+        "ClearCoatColor",
+        "RefractionRatio",
+    ],
+};
+
+/// A material's type: its name, the keys that it uses, and how they are read.
+type Type = (&'static str, &'static [&'static str], fn(&Fields<'_>, &mut Report) -> Option<MaterialKind>);
+
+const TYPES: [Type; 4] = [
+    ("Diffuse", &["Type", "Name", "Color", "EmissionStrength", "EmissionColor"], diffuse),
+    ("Reflective", &["Type", "Name", "Color", "Specularity"], reflective),
+    ("ClearCoat", &["Type", "Name", "Color", "ClearCoat", "ClearCoatColor", "Specularity"], clear_coat),
+    ("Refractive", &["Type", "Name", "Color", "RefractionRatio"], refractive),
+];
+
+/// Reads a material; `None` after an error.
+pub(super) fn read(value: Value<'_>, report: &mut Report) -> Option<MaterialDesc> {
+    if value.node.text() == Some("FromFile") {
+        let help = "give a mapping with Type, Color and so on".to_owned();
+        value.error("cannot be FromFile: materials of OBJ files are not supported by this version", Some(help), report);
+        return None;
+    }
+    let fields = Fields::open(value, &SECTION, &super::SECTIONS, report)?;
+    let name = fields.name(report);
+    let choices = TYPES.map(|material| (material.0, material));
+    let kind = fields.require("Type", "Diffuse, Reflective, ClearCoat or Refractive", report);
+    let (type_name, used, read_kind) = kind?.choice(&choices, report)?;
+    fields.warn_unused(&SECTION, used, type_name, report);
+    let kind = read_kind(&fields, report)?;
+    Some(MaterialDesc { name, kind })
+}
+
+/// A reflectance, white if it is not given.
+fn reflectance(fields: &Fields<'_>, key: &str, report: &mut Report) -> Option<Rgb> {
+    let Some(value) = fields.get(key) else { return Some(Rgb::ONE) };
+    if let Kind::Map(entries) = &value.node.kind
+        && entries.iter().any(|(key, _)| key.text() == Some("Image"))
+    {
+        value.error(PICTURES, Some("give three numbers from 0 to 1 instead".into()), report);
+        return None;
+    }
+    value.vector(Range::Unit, report)
+}
+
+fn diffuse(fields: &Fields<'_>, report: &mut Report) -> Option<MaterialKind> {
+    let color = reflectance(fields, "Color", report);
+    let strength = fields.number_or("EmissionStrength", Range::NonNegative, 0.0, report);
+    let emitted = fields.vector_or("EmissionColor", Range::NonNegative, Rgb::ONE, report);
+    let emission = emitted? * strength?;
+    if !emission.is_finite() {
+        let value = fields.get("EmissionStrength")?;
+        value.error("times EmissionColor must be finite", None, report);
+        return None;
+    }
+    Some(MaterialKind::Diffuse { color: color?, emission })
+}
+
+fn reflective(fields: &Fields<'_>, report: &mut Report) -> Option<MaterialKind> {
+    let color = reflectance(fields, "Color", report);
+    let specularity = fields.number_or("Specularity", Range::Unit, 1.0, report);
+    Some(MaterialKind::Reflective { color: color?, specularity: specularity? })
+}
+
+fn clear_coat(fields: &Fields<'_>, report: &mut Report) -> Option<MaterialKind> {
+    let color = reflectance(fields, "Color", report);
+    let coat = fields.number_or("ClearCoat", Range::Unit, 0.5, report);
+    let coat_color = reflectance(fields, "ClearCoatColor", report);
+    let specularity = fields.number_or("Specularity", Range::Unit, 1.0, report);
+    Some(MaterialKind::ClearCoat {
+        color: color?,
+        coat: coat?,
+        coat_color: coat_color?,
+        specularity: specularity?,
+    })
+}
+
+fn refractive(fields: &Fields<'_>, report: &mut Report) -> Option<MaterialKind> {
+    let color = reflectance(fields, "Color", report);
+    let ratio = fields.number_or("RefractionRatio", Range::Positive, 1.0, report);
+    Some(MaterialKind::Refractive { color: color?, ratio: ratio? })
+}

@@ -1,0 +1,77 @@
+//! What the keys of a scene mean: from the tree of the YAML document to a [`SceneDesc`], one file a section.
+
+mod camera;
+mod environment;
+mod material;
+mod object;
+
+use super::desc::{ObjectDesc, SceneDesc};
+use super::diagnostic::{Finding, Report};
+use super::meshes::Meshes;
+use super::source::Source;
+use super::yaml::fields::{Fields, Section};
+use super::yaml::node::{Kind, Node};
+use super::yaml::value::Value;
+use crate::error::Severity;
+use std::path::Path;
+
+/// The whole file.
+const SCENE: Section = Section { name: "the scene", keys: &["Camera", "Environment", "Objects"] };
+
+/// All sections, to say where a key belongs that stands in the wrong one.
+const SECTIONS: [Section; 5] =
+    [camera::SECTION, environment::SECTION, object::SECTION, material::SECTION, SCENE];
+
+/// What follows the path of a key that names a picture.
+const PICTURES: &str = "names a picture; pictures are not supported by this version";
+
+/// What reading an object needs beside its value.
+struct Context<'c> {
+    source: &'c Source<'c>,
+    meshes: &'c mut Meshes,
+    report: &'c mut Report,
+}
+
+/// Reads a scene; `None` after an error, which `report` holds.
+pub(crate) fn read(root: &Node<'_>, file: &Path, source: &Source<'_>, report: &mut Report) -> Option<SceneDesc> {
+    let root = Value::root(root);
+    let fields = Fields::open(root, &SCENE, &SECTIONS, report)?;
+    let camera = fields.require("Camera", "Position, LookingAt, Fov and FocusDistance", report);
+    let camera = camera.and_then(|value| camera::read(value, report));
+    let environment = match fields.get("Environment") {
+        Some(value) => environment::read(value, report),
+        None => Some(environment::default()),
+    };
+    let mut meshes = Meshes::beside(file);
+    let list = fields.require("Objects", "a list of objects", report);
+    let objects = list.and_then(|list| objects(list, &mut Context { source, meshes: &mut meshes, report }));
+    Some(SceneDesc {
+        file: file.to_path_buf(),
+        camera: camera?,
+        environment: environment?,
+        objects: objects?,
+    })
+}
+
+/// Reads the list of objects.
+fn objects(list: Value<'_>, context: &mut Context<'_>) -> Option<Vec<ObjectDesc>> {
+    let Kind::List(items) = &list.node.kind else {
+        let help = "each item is \"- Object:\" with its keys indented below".to_owned();
+        list.refuse("a list", Some(help), context.report);
+        return None;
+    };
+    if items.is_empty() {
+        context.report.push(Finding {
+            severity: Severity::Warning,
+            subject: list.path.to_string(),
+            text: " is empty: the picture will show only the sky".to_owned(),
+            help: None,
+            place: list.place(),
+            elsewhere: None,
+        });
+    }
+    let read = items.iter().enumerate().map(|(index, item)| object::read(list.item(index, item), context));
+    // Not `collect::<Option<_>>`, which would stop at the first error.
+    let objects: Vec<Option<ObjectDesc>> = read.collect();
+    objects.into_iter().collect()
+}
