@@ -92,7 +92,11 @@ fn read(path: &Path, value: Value<'_>, report: &mut Report) -> Option<MeshDesc> 
         warn(format!(": {faces} without area dropped from {}", shown(path)), value, report);
     }
     if loaded.fanned > 0 {
-        let text = format!(": {} concave faces of {} have too many corners to be split properly", loaded.fanned, shown(path));
+        let text = format!(
+            ": {} concave faces of {} have too many corners to be split properly",
+            loaded.fanned,
+            shown(path)
+        );
         warn(text, value, report);
     }
     Some(loaded.mesh)

@@ -38,7 +38,9 @@ pub struct Scene {
 pub fn load(path: &Path) -> Result<Scene> {
     let failed = |source| Error::Io { action: "read the scene".into(), path: path.to_path_buf(), source };
     let mut bytes = Vec::new();
-    File::open(path).and_then(|file| file.take(yaml::MAX_BYTES + 1).read_to_end(&mut bytes)).map_err(failed)?;
+    File::open(path)
+        .and_then(|file| file.take(yaml::MAX_BYTES + 1).read_to_end(&mut bytes))
+        .map_err(failed)?;
     let text = yaml::decode(&bytes, path).map_err(|diagnostic| Error::Scene(vec![*diagnostic]))?;
     read_text(text, path)
 }

@@ -101,7 +101,8 @@ impl Group {
             [Some(a), Some(b), Some(c)] if form.texcoords => [a, b, c].map(|index| texcoord + index),
             _ => NO_INDICES,
         });
-        let normals = corners.map(|corner| group.normal_indices.get(corner).filter(|&&n| self.has_direction(n)));
+        let normals =
+            corners.map(|corner| group.normal_indices.get(corner).filter(|&&n| self.has_direction(n)));
         mesh.normal_indices.push(match normals {
             [Some(a), Some(b), Some(c)] if form.normals => [a, b, c].map(|index| normal + index),
             _ => NO_INDICES,

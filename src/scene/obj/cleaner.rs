@@ -79,7 +79,14 @@ impl<R: BufRead> Cleaner<R> {
     /// Cleans what `reader` gives; `limits` are the counts of an earlier survey.
     pub(super) fn new(reader: R, limits: Option<[usize; 3]>) -> Cleaner<R> {
         let lines = Lines::new(reader);
-        Cleaner { lines, batch: Vec::new(), consumed: 0, faces_in_group: 0, limits, survey: Survey::default() }
+        Cleaner {
+            lines,
+            batch: Vec::new(),
+            consumed: 0,
+            faces_in_group: 0,
+            limits,
+            survey: Survey::default(),
+        }
     }
 
     /// Surveys what is left of the file.

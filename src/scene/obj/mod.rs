@@ -7,8 +7,8 @@ mod polygon;
 mod statement;
 
 use super::desc::MeshDesc;
-pub(crate) use cleaner::Fault;
 use cleaner::Cleaner;
+pub(crate) use cleaner::Fault;
 use std::fs::File;
 use std::io::{self, BufReader};
 use std::path::Path;

@@ -61,14 +61,26 @@ pub(super) struct Numbers {
 pub(super) const POSITION: Numbers =
     Numbers { keyword: "v", kind: 0, name: "a vertex", least: 3, used: 3, limit: f64::MAX };
 /// `vt u [v [w]]`.
-pub(super) const TEXCOORD: Numbers =
-    Numbers { keyword: "vt", kind: 1, name: "a texture coordinate", least: 1, used: 2, limit: f32::MAX as f64 };
+pub(super) const TEXCOORD: Numbers = Numbers {
+    keyword: "vt",
+    kind: 1,
+    name: "a texture coordinate",
+    least: 1,
+    used: 2,
+    limit: f32::MAX as f64,
+};
 /// `vn x y z`.
 pub(super) const NORMAL: Numbers =
     Numbers { keyword: "vn", kind: 2, name: "a normal", least: 3, used: 3, limit: f64::MAX };
 
 /// Checks a statement of numbers, which starts at `at`, and appends to `batch` what `tobj` shall read.
-pub(super) fn numbers(at: usize, words: Words<'_>, rule: &Numbers, survey: &mut Survey, batch: &mut Vec<u8>) -> Checked {
+pub(super) fn numbers(
+    at: usize,
+    words: Words<'_>,
+    rule: &Numbers,
+    survey: &mut Survey,
+    batch: &mut Vec<u8>,
+) -> Checked {
     survey.counts[rule.kind] += 1;
     let count = words.count();
     if count < rule.least {
@@ -136,7 +148,10 @@ fn corner(word: &[u8], limits: Option<[usize; 3]>, survey: &mut Survey) -> Resul
         }
         let index = std::str::from_utf8(part).ok().and_then(|part| part.parse::<i64>().ok());
         let (Some(index), Some(given)) = (index, given.get_mut(kind)) else {
-            return Err(format!("a corner is v, v/vt, v//vn or v/vt/vn with whole numbers, found {}", shown(word)));
+            return Err(format!(
+                "a corner is v, v/vt, v//vn or v/vt/vn with whole numbers, found {}",
+                shown(word)
+            ));
         };
         *given = true;
         check_index(kind, index, limits, survey)?;
@@ -145,7 +160,12 @@ fn corner(word: &[u8], limits: Option<[usize; 3]>, survey: &mut Survey) -> Resul
 }
 
 /// Checks an index into the vertices, texture coordinates or normals (`kind` 0, 1, 2).
-fn check_index(kind: usize, index: i64, limits: Option<[usize; 3]>, survey: &mut Survey) -> Result<(), String> {
+fn check_index(
+    kind: usize,
+    index: i64,
+    limits: Option<[usize; 3]>,
+    survey: &mut Survey,
+) -> Result<(), String> {
     const NAMES: [[&str; 2]; 3] =
         [["vertex", "vertices"], ["texture coordinate", "texture coordinates"], ["normal", "normals"]];
     let [one, many] = NAMES[kind];

@@ -8,7 +8,16 @@ use crate::scene::yaml::value::{Range, Value};
 /// The keys of the camera.
 pub(super) const SECTION: Section = Section {
     name: "Camera",
-    keys: &["Position", "LookingAt", "Fov", "FocusDistance", "DepthOfField", "ApertureRadius", "Angle", "Name"],
+    keys: &[
+        "Position",
+        "LookingAt",
+        "Fov",
+        "FocusDistance",
+        "DepthOfField",
+        "ApertureRadius",
+        "Angle",
+        "Name",
+    ],
 };
 
 /// Reads the camera; `None` after an error.
@@ -21,7 +30,11 @@ pub(super) fn read(value: Value<'_>, report: &mut Report) -> Option<CameraDesc> 
         && position == looking_at
         && let Some(value) = fields.get("LookingAt")
     {
-        value.error("must differ from Position", Some("the camera has no direction to look in".into()), report);
+        value.error(
+            "must differ from Position",
+            Some("the camera has no direction to look in".into()),
+            report,
+        );
     }
     let meaning = "the horizontal field of view as a fraction of pi, such as 0.33 for 59.4 degrees";
     let fov = fov(&fields, meaning, report);

@@ -39,7 +39,8 @@ pub(super) fn read(value: Value<'_>, report: &mut Report) -> Option<EnvironmentD
     let sky = fields.vector("SkyColor", Range::NonNegative, "[r, g, b], the radiance from above", report);
     let meaning = "[r, g, b], the radiance from the horizon";
     let horizon = fields.vector("HorizonColor", Range::NonNegative, meaning, report);
-    let ground = fields.vector("GroundColor", Range::NonNegative, "[r, g, b], the radiance from below", report);
+    let ground =
+        fields.vector("GroundColor", Range::NonNegative, "[r, g, b], the radiance from below", report);
     let strength = fields.number_or("Strength", Range::NonNegative, 1.0, report);
     Some(EnvironmentDesc { sky: sky?, horizon: horizon?, ground: ground?, strength: strength? })
 }

@@ -38,7 +38,11 @@ const TYPES: [Type; 4] = [
 pub(super) fn read(value: Value<'_>, report: &mut Report) -> Option<MaterialDesc> {
     if value.node.text() == Some("FromFile") {
         let help = "give a mapping with Type, Color and so on".to_owned();
-        value.error("cannot be FromFile: materials of OBJ files are not supported by this version", Some(help), report);
+        value.error(
+            "cannot be FromFile: materials of OBJ files are not supported by this version",
+            Some(help),
+            report,
+        );
         return None;
     }
     let fields = Fields::open(value, &SECTION, &super::SECTIONS, report)?;

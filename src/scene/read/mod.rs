@@ -33,7 +33,12 @@ struct Context<'c> {
 }
 
 /// Reads a scene; `None` after an error, which `report` holds.
-pub(crate) fn read(root: &Node<'_>, file: &Path, source: &Source<'_>, report: &mut Report) -> Option<SceneDesc> {
+pub(crate) fn read(
+    root: &Node<'_>,
+    file: &Path,
+    source: &Source<'_>,
+    report: &mut Report,
+) -> Option<SceneDesc> {
     let root = Value::root(root);
     let fields = Fields::open(root, &SCENE, &SECTIONS, report)?;
     let camera = fields.require("Camera", "Position, LookingAt, Fov and FocusDistance", report);

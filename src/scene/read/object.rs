@@ -12,8 +12,8 @@ use crate::scene::yaml::value::{Range, Value};
 pub(super) const SECTION: Section = Section {
     name: "Object",
     keys: &[
-        "Type", "Name", "Material", "Position", "Radius", "Width", "Height", "Depth", "Rotation", "Filepath", "Scale",
-        "Axes", "Smooth",
+        "Type", "Name", "Material", "Position", "Radius", "Width", "Height", "Depth", "Rotation", "Filepath",
+        "Scale", "Axes", "Smooth",
     ],
 };
 
@@ -58,7 +58,8 @@ pub(super) fn read(item: Value<'_>, context: &mut Context<'_>) -> Option<ObjectD
 fn is_badly_indented(item: Value<'_>) -> bool {
     let Kind::Map(entries) = &item.node.kind else { return false };
     let holds = |key: &str| entries.iter().any(|(k, _)| k.text() == Some(key));
-    let empty = |key: &str| entries.iter().any(|(k, v)| k.text() == Some(key) && matches!(v.kind, Kind::Null));
+    let empty =
+        |key: &str| entries.iter().any(|(k, v)| k.text() == Some(key) && matches!(v.kind, Kind::Null));
     holds("Type") && (empty("Object") || !holds("Object"))
 }
 
@@ -102,7 +103,8 @@ fn mesh(fields: &Fields<'_>, context: &mut Context<'_>) -> Option<ShapeDesc> {
     let path = fields.require("Filepath", "the OBJ file", report);
     let mesh = path.and_then(|value| context.meshes.get(value, report));
     let scale = fields.number_or("Scale", Range::Positive, 1.0, report);
-    let position = fields.vector("Position", Range::Finite, "[x, y, z], where the file's origin goes", report);
+    let position =
+        fields.vector("Position", Range::Finite, "[x, y, z], where the file's origin goes", report);
     let rotation = rotation(fields, report);
     let choices = [("YUp", Axes::YUp), ("ZUp", Axes::ZUp), ("SwapYZ", Axes::SwapYZ)];
     let axes = fields.get("Axes").map_or(Some(Axes::YUp), |value| value.choice(&choices, report));

@@ -60,7 +60,12 @@ impl<'v> Fields<'v> {
     }
 
     /// The value of `key`; reports its absence, with what it would have been.
-    pub(crate) fn require<'c>(&'c self, key: &'c str, meaning: &str, report: &mut Report) -> Option<Value<'c>> {
+    pub(crate) fn require<'c>(
+        &'c self,
+        key: &'c str,
+        meaning: &str,
+        report: &mut Report,
+    ) -> Option<Value<'c>> {
         let found = self.get(key);
         if found.is_none() {
             let text = format!(" has no {key}");
@@ -76,17 +81,35 @@ impl<'v> Fields<'v> {
     }
 
     /// A number that is `default` if it is not given.
-    pub(crate) fn number_or(&self, key: &str, range: Range, default: f64, report: &mut Report) -> Option<f64> {
+    pub(crate) fn number_or(
+        &self,
+        key: &str,
+        range: Range,
+        default: f64,
+        report: &mut Report,
+    ) -> Option<f64> {
         self.get(key).map_or(Some(default), |value| value.number(range, report))
     }
 
     /// Three required numbers.
-    pub(crate) fn vector(&self, key: &str, range: Range, meaning: &str, report: &mut Report) -> Option<DVec3> {
+    pub(crate) fn vector(
+        &self,
+        key: &str,
+        range: Range,
+        meaning: &str,
+        report: &mut Report,
+    ) -> Option<DVec3> {
         self.require(key, meaning, report)?.vector(range, report)
     }
 
     /// Three numbers that are `default` if they are not given.
-    pub(crate) fn vector_or(&self, key: &str, range: Range, default: DVec3, report: &mut Report) -> Option<DVec3> {
+    pub(crate) fn vector_or(
+        &self,
+        key: &str,
+        range: Range,
+        default: DVec3,
+        report: &mut Report,
+    ) -> Option<DVec3> {
         self.get(key).map_or(Some(default), |value| value.vector(range, report))
     }
 
@@ -98,7 +121,8 @@ impl<'v> Fields<'v> {
     /// Warns of the keys of `section` that are given but not among `used`, by the variant named `user`.
     pub(crate) fn warn_unused(&self, section: &Section, used: &[&str], user: &str, report: &mut Report) {
         for (index, (key, _)) in self.entries.iter().enumerate() {
-            let Some(text) = key.text().filter(|text| section.keys.contains(text) && !used.contains(text)) else {
+            let Some(text) = key.text().filter(|text| section.keys.contains(text) && !used.contains(text))
+            else {
                 continue;
             };
             let text = format!(".{text} is not used by {user}");

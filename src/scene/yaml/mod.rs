@@ -43,7 +43,13 @@ pub(crate) fn decode<'b>(bytes: &'b [u8], file: &Path) -> Result<&'b str, Box<Di
 /// A diagnostic about the file as such.
 fn whole_file(message: String, file: &Path, help: &str) -> Diagnostic {
     let location = Some(Location { file: file.to_path_buf(), line: 1, column: 1 });
-    Diagnostic { severity: Severity::Error, message, location, source_line: None, help: Some(help.to_owned()) }
+    Diagnostic {
+        severity: Severity::Error,
+        message,
+        location,
+        source_line: None,
+        help: Some(help.to_owned()),
+    }
 }
 
 /// Parses the one document of `source`.
@@ -59,7 +65,8 @@ pub(crate) fn parse<'t>(source: &Source<'t>) -> Result<Node<'t>, Box<Diagnostic>
     let seed = NodeSeed { text, left: &left };
     seed.deserialize(serde_yaml::Deserializer::from_str(text)).map_err(|error| {
         if left.get() == 0 {
-            let message = format!("the scene has more than {MAX_VALUES} values, those behind aliases included");
+            let message =
+                format!("the scene has more than {MAX_VALUES} values, those behind aliases included");
             return refuse(0, message, None);
         }
         let (offset, message, help) = syntax_error(&error, source);
@@ -79,7 +86,10 @@ fn beyond_limits(text: &str) -> Option<(usize, String)> {
         }
         indicators += usize::from(matches!(c, '[' | '{' | ',' | ':' | '-' | '?' | '\n'));
         if !is_allowed(c) {
-            return Some((offset, format!("the scene file is no text: it holds the character U+{:04X}", c as u32)));
+            return Some((
+                offset,
+                format!("the scene file is no text: it holds the character U+{:04X}", c as u32),
+            ));
         }
         if open > MAX_BRACKETS {
             return Some((offset, format!("more than {MAX_BRACKETS} brackets are open")));
@@ -106,7 +116,11 @@ fn syntax_error(error: &serde_yaml::Error, source: &Source<'_>) -> (usize, Strin
     let Some(location) = error.location() else {
         return if problem.contains("more than one document") {
             let offset = position::second_document(source.text()).unwrap_or(0);
-            (offset, "a second document starts here".to_owned(), Some("a scene file holds one document; remove ---"))
+            (
+                offset,
+                "a second document starts here".to_owned(),
+                Some("a scene file holds one document; remove ---"),
+            )
         } else if problem.contains("repetition limit") {
             (0, "the aliases of the scene repeat too much".to_owned(), None)
         } else {

@@ -106,7 +106,12 @@ impl<'v> Value<'v> {
     }
 
     /// Entry `index` of this mapping, whose key reads `key`.
-    pub(super) fn entry<'c>(&'c self, index: usize, key: &'c str, entry: &'c (Node<'v>, Node<'v>)) -> Value<'c>
+    pub(super) fn entry<'c>(
+        &'c self,
+        index: usize,
+        key: &'c str,
+        entry: &'c (Node<'v>, Node<'v>),
+    ) -> Value<'c>
     where
         'v: 'c,
     {
