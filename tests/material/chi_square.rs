@@ -60,11 +60,9 @@ fn lobes_with_a_rim_have_their_density() {
 
 #[test]
 fn clear_coats_have_their_density() {
-    let (probabilities, specularities) = ([0.0, 0.3, 1.0], [0.25, 0.6, 0.9]);
-    for probability in probabilities {
-        for s in specularities {
-            check(&clear_coat(probability, s), s, 9 * ANGLES.len());
-        }
+    let cases = [(0.0, 0.6), (0.3, 0.25), (0.3, 0.6), (0.3, 0.9), (1.0, 0.25), (1.0, 0.9)];
+    for (probability, s) in cases {
+        check(&clear_coat(probability, s), s, cases.len() * ANGLES.len());
     }
 }
 

@@ -127,7 +127,7 @@ impl LobeCoordinates {
             .collect();
         let (inside, outside) = mass.split_at(FINE);
         let share = inside.iter().sum::<f64>() / mass.iter().sum::<f64>();
-        let count = ((share * RINGS as f64) as usize).clamp(8, RINGS - 8);
+        let count = ((share * RINGS as f64) as usize).clamp(RINGS / 2, RINGS - 8);
         let mut borders = equal_parts(inside, 0.0, count);
         borders.extend(equal_parts(outside, 1.0, RINGS - count));
         borders.push(2.0);
@@ -138,7 +138,7 @@ impl LobeCoordinates {
 /// Lower borders of `count` parts of [start, start + 1] with equal shares of a mass given for equal steps, mixed
 /// with a uniform one so that no part is too wide for the quadrature.
 fn equal_parts(mass: &[f64], start: f64, count: usize) -> Vec<f64> {
-    let uniform = (0.3 * mass.iter().sum::<f64>()).max(1e-9) / mass.len() as f64;
+    let uniform = (0.5 * mass.iter().sum::<f64>()).max(1e-9) / mass.len() as f64;
     let total: f64 = mass.iter().map(|step| step + uniform).sum();
     let (mut borders, mut below) = (vec![start], 0.0);
     for (i, step) in mass.iter().map(|step| step + uniform).enumerate() {
