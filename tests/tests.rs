@@ -21,3 +21,9 @@ mod embree;
 mod lights;
 /// Light transport against closed forms: furnaces, lights of every shape, the sky.
 mod transport;
+
+/// Scene files and meshes as they should be: every key, every default, every style.
+mod scene_format;
+
+/// Bad scenes and meshes: each mistake and its message.
+mod scene_errors;

@@ -56,7 +56,8 @@ impl<'t> Source<'t> {
         help: Option<String>,
     ) -> Diagnostic {
         let location = self.location(offset);
-        let source_line = Some(Diagnostic::excerpt(self.line_text(location.line - 1), location.column));
+        let line = self.line_text(location.line - 1);
+        let source_line = (!line.trim().is_empty()).then(|| Diagnostic::excerpt(line, location.column));
         Diagnostic { severity, message, location: Some(location), source_line, help }
     }
 

@@ -38,9 +38,10 @@ const CENTER: &str = "[x, y, z], the centre";
 
 /// Reads an item; `None` after an error.
 pub(super) fn read(item: Value<'_>, context: &mut Context<'_>) -> Option<ObjectDesc> {
-    if is_badly_indented(item) {
-        let help = "indent Type, Position and so on further than the word Object".to_owned();
-        item.error("has its keys beside Object instead of below it", Some(help), context.report);
+    if has_keys_of_object(item) {
+        let help =
+            "write \"- Object:\" and indent Type, Position and so on further than the word Object".to_owned();
+        item.error("has the keys of an object beside Object instead of below it", Some(help), context.report);
         return None;
     }
     let fields = Fields::open(item, &ITEM, &[], context.report)?;
@@ -55,12 +56,10 @@ pub(super) fn read(item: Value<'_>, context: &mut Context<'_>) -> Option<ObjectD
 }
 
 /// Whether the keys of an object stand beside the word `Object`, or without it: one mistake, and one message.
-fn is_badly_indented(item: Value<'_>) -> bool {
+fn has_keys_of_object(item: Value<'_>) -> bool {
     let Kind::Map(entries) = &item.node.kind else { return false };
-    let holds = |key: &str| entries.iter().any(|(k, _)| k.text() == Some(key));
-    let empty =
-        |key: &str| entries.iter().any(|(k, v)| k.text() == Some(key) && matches!(v.kind, Kind::Null));
-    holds("Type") && (empty("Object") || !holds("Object"))
+    let value = |key: &str| entries.iter().find(|(k, _)| k.text() == Some(key)).map(|(_, value)| &value.kind);
+    value("Type").is_some() && matches!(value("Object"), None | Some(Kind::Null))
 }
 
 fn shape(fields: &Fields<'_>, context: &mut Context<'_>) -> Option<ShapeDesc> {

@@ -15,12 +15,22 @@ pub(crate) struct Section {
     pub(crate) keys: &'static [&'static str],
 }
 
+impl Section {
+    /// What the keys are, for a help line.
+    fn keys_help(&self) -> String {
+        match self.keys {
+            [only] => format!("{} has the key {only}", self.name),
+            keys => format!("the keys of {} are {}", self.name, keys.join(", ")),
+        }
+    }
+}
+
 /// A mapping of a [`Section`].
-#[derive(Clone, Copy)]
 pub(crate) struct Fields<'v> {
-    /// The mapping.
-    pub(crate) value: Value<'v>,
+    value: Value<'v>,
     entries: &'v [(Node<'v>, Node<'v>)],
+    /// Keys that unknown keys were taken for. They are not reported as missing too.
+    guessed: Vec<&'static str>,
 }
 
 impl<'v> Fields<'v> {
@@ -33,24 +43,64 @@ impl<'v> Fields<'v> {
         report: &mut Report,
     ) -> Option<Fields<'v>> {
         let Kind::Map(entries) = &value.node.kind else {
-            let keys = section.keys.join(", ");
-            value.refuse("a mapping", Some(format!("the keys of {} are {keys}", section.name)), report);
+            value.refuse("a mapping", Some(section.keys_help()), report);
             return None;
         };
+        let mut fields = Fields { value, entries, guessed: Vec::new() };
         let mut seen = vec![false; section.keys.len()];
         for (index, (key, _)) in entries.iter().enumerate() {
-            let known = key.text().and_then(|text| section.keys.iter().position(|known| *known == text));
-            let (text, help) = match known {
-                None => (format!(" has the unknown key {}", key_words(key)), unknown_help(key, section, all)),
+            match key.text().and_then(|text| section.keys.iter().position(|known| *known == text)) {
+                None => fields.unknown(index, key, section, all, report),
                 Some(known) if std::mem::replace(&mut seen[known], true) => {
-                    (format!(".{} is given twice", section.keys[known]), "remove one of the two".to_owned())
+                    let help = "remove one of the two".to_owned();
+                    fields.push(Severity::Error, index, " is given twice", help, report);
                 }
-                Some(_) => continue,
-            };
-            let place = value.place_of_key(index, key);
-            push(Severity::Error, value, text, Some(help), place, report);
+                Some(_) => {}
+            }
         }
-        Some(Fields { value, entries })
+        Some(fields)
+    }
+
+    /// Reports an unknown key, with what it was probably meant to be.
+    fn unknown(
+        &mut self,
+        index: usize,
+        key: &Node<'_>,
+        section: &Section,
+        all: &[Section],
+        report: &mut Report,
+    ) {
+        let word = key.text().unwrap_or("");
+        let owner = all.iter().find(|other| other.name != section.name && other.keys.contains(&word));
+        let near = nearest(word, section.keys);
+        self.guessed.extend(near);
+        let help = match (owner, near) {
+            (_, Some(near)) => format!("did you mean {near}?"),
+            (Some(owner), None) => format!("{word} is a key of {}", owner.name),
+            (None, None) => section.keys_help(),
+        };
+        report.push(Finding {
+            severity: Severity::Error,
+            subject: self.value.path.to_string(),
+            text: format!(" has {}", unknown_words(key)),
+            help: Some(help),
+            place: self.value.place_of_key(index, key),
+            elsewhere: None,
+        });
+    }
+
+    /// Reports something about the key of entry `index`, which is a text.
+    fn push(&self, severity: Severity, index: usize, text: &str, help: String, report: &mut Report) {
+        let Some(entry) = self.entries.get(index) else { return };
+        let value = self.value.entry(index, entry.0.text().unwrap_or(""), entry);
+        report.push(Finding {
+            severity,
+            subject: value.path.to_string(),
+            text: text.to_owned(),
+            help: Some(help),
+            place: self.value.place_of_key(index, &entry.0),
+            elsewhere: None,
+        });
     }
 
     /// The value of `key`, if it is given.
@@ -67,10 +117,15 @@ impl<'v> Fields<'v> {
         report: &mut Report,
     ) -> Option<Value<'c>> {
         let found = self.get(key);
-        if found.is_none() {
-            let text = format!(" has no {key}");
-            let help = Some(format!("add {key}: {meaning}"));
-            push(Severity::Error, self.value, text, help, Place::Offset(self.value.near()), report);
+        if found.is_none() && !self.guessed.contains(&key) {
+            report.push(Finding {
+                severity: Severity::Error,
+                subject: self.value.path.to_string(),
+                text: format!(" has no {key}"),
+                help: Some(format!("add {key}: {meaning}")),
+                place: Place::Offset(self.value.near()),
+                elsewhere: None,
+            });
         }
         found
     }
@@ -121,52 +176,21 @@ impl<'v> Fields<'v> {
     /// Warns of the keys of `section` that are given but not among `used`, by the variant named `user`.
     pub(crate) fn warn_unused(&self, section: &Section, used: &[&str], user: &str, report: &mut Report) {
         for (index, (key, _)) in self.entries.iter().enumerate() {
-            let Some(text) = key.text().filter(|text| section.keys.contains(text) && !used.contains(text))
-            else {
-                continue;
-            };
-            let text = format!(".{text} is not used by {user}");
-            let help = Some(format!("{user} uses {}", used.join(", ")));
-            push(Severity::Warning, self.value, text, help, self.value.place_of_key(index, key), report);
+            if key.text().is_some_and(|text| section.keys.contains(&text) && !used.contains(&text)) {
+                let help = format!("{user} uses {}", used.join(", "));
+                self.push(Severity::Warning, index, &format!(" is not used by {user}"), help, report);
+            }
         }
     }
-
-    /// Whether any of `keys` is given.
-    pub(crate) fn has_any(&self, keys: &[&str]) -> bool {
-        self.entries.iter().any(|(key, _)| key.text().is_some_and(|text| keys.contains(&text)))
-    }
 }
 
-/// Reports something about a key of `value`.
-fn push(
-    severity: Severity,
-    value: Value<'_>,
-    text: String,
-    help: Option<String>,
-    place: Place,
-    report: &mut Report,
-) {
-    report.push(Finding { severity, subject: value.path.to_string(), text, help, place, elsewhere: None });
-}
-
-/// A key in a message: bare if it looks like one.
-fn key_words(key: &Node<'_>) -> String {
+/// What an unknown key is called: bare if it looks like a key.
+fn unknown_words(key: &Node<'_>) -> String {
     match key.text() {
-        Some(text) if !text.is_empty() && text.chars().all(char::is_alphanumeric) && text.len() <= 40 => {
-            text.to_owned()
+        Some(text) if !text.is_empty() && text.len() <= 40 && text.chars().all(char::is_alphanumeric) => {
+            format!("the unknown key {text}")
         }
-        Some(text) => quote(text),
-        None => "that is no text".to_owned(),
-    }
-}
-
-/// What an unknown key was probably meant to be.
-fn unknown_help(key: &Node<'_>, section: &Section, all: &[Section]) -> String {
-    let word = key.text().unwrap_or("");
-    let owner = all.iter().find(|other| other.name != section.name && other.keys.contains(&word));
-    match (owner, nearest(word, section.keys)) {
-        (_, Some(near)) => format!("did you mean {near}?"),
-        (Some(owner), None) => format!("{word} is a key of {}", owner.name),
-        (None, None) => format!("the keys of {} are {}", section.name, section.keys.join(", ")),
+        Some(text) => format!("the unknown key {}", quote(text)),
+        None => "a key that is no text".to_owned(),
     }
 }

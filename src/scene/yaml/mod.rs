@@ -34,8 +34,11 @@ pub(crate) fn decode<'b>(bytes: &'b [u8], file: &Path) -> Result<&'b str, Box<Di
         let line_end = rest.iter().position(|&byte| byte == b'\n').unwrap_or(rest.len()).min(1000);
         let shown = String::from_utf8_lossy(&bytes[..valid.len() + line_end]);
         let byte = rest.first().copied().unwrap_or(0);
-        let message = format!("the scene file is not UTF-8: byte 0x{byte:02X}");
-        let help = Some("save it as UTF-8".to_owned());
+        let (message, help) = if bytes.contains(&0) {
+            ("the scene file is no text".to_owned(), None)
+        } else {
+            (format!("the scene file is not UTF-8: byte 0x{byte:02X}"), Some("save it as UTF-8".to_owned()))
+        };
         Box::new(Source::new(file, &shown).diagnostic(Severity::Error, message, valid.len(), help))
     })
 }
@@ -55,11 +58,8 @@ fn whole_file(message: String, file: &Path, help: &str) -> Diagnostic {
 /// Parses the one document of `source`.
 pub(crate) fn parse<'t>(source: &Source<'t>) -> Result<Node<'t>, Box<Diagnostic>> {
     let text = source.text();
-    let refuse = |offset: usize, message: String, help: Option<&str>| {
-        Box::new(source.diagnostic(Severity::Error, message, offset, help.map(str::to_owned)))
-    };
     if let Some((offset, message)) = beyond_limits(text) {
-        return Err(refuse(offset, message, None));
+        return Err(Box::new(source.diagnostic(Severity::Error, message, offset, None)));
     }
     let left = Cell::new(MAX_VALUES);
     let seed = NodeSeed { text, left: &left };
@@ -67,10 +67,9 @@ pub(crate) fn parse<'t>(source: &Source<'t>) -> Result<Node<'t>, Box<Diagnostic>
         if left.get() == 0 {
             let message =
                 format!("the scene has more than {MAX_VALUES} values, those behind aliases included");
-            return refuse(0, message, None);
+            return Box::new(source.diagnostic(Severity::Error, message, 0, None));
         }
-        let (offset, message, help) = syntax_error(&error, source);
-        refuse(offset, message, help)
+        Box::new(syntax_error(&error, source))
     })
 }
 
@@ -110,11 +109,11 @@ fn is_allowed(c: char) -> bool {
     }
 }
 
-/// Offset, message and help for an error of the parser.
-fn syntax_error(error: &serde_yaml::Error, source: &Source<'_>) -> (usize, String, Option<&'static str>) {
-    let mut problem = error.to_string();
+/// The diagnostic for an error of the parser.
+fn syntax_error(error: &serde_yaml::Error, source: &Source<'_>) -> Diagnostic {
+    let problem = error.to_string();
     let Some(location) = error.location() else {
-        return if problem.contains("more than one document") {
+        let (offset, message, help) = if problem.contains("more than one document") {
             let offset = position::second_document(source.text()).unwrap_or(0);
             (
                 offset,
@@ -126,23 +125,31 @@ fn syntax_error(error: &serde_yaml::Error, source: &Source<'_>) -> (usize, Strin
         } else {
             (0, format!("not valid YAML: {problem}"), None)
         };
+        return source.diagnostic(Severity::Error, message, offset, help.map(str::to_owned));
     };
-    problem = problem.replacen(&format!(" at line {} column {}", location.line(), location.column()), "", 1);
+    let offset = location.index();
     if problem.contains("recursion limit") {
-        return (location.index(), "the values are nested too deeply".to_owned(), None);
+        return source.diagnostic(
+            Severity::Error,
+            "the values are nested too deeply".to_owned(),
+            offset,
+            None,
+        );
     }
-    let line = source.line_at(location.index());
+    let place = format!(" at line {} column {}", location.line(), location.column());
+    let message = format!("not valid YAML: {}", problem.replacen(&place, "", 1));
+    let line = source.line_at(offset);
     let indentation = &line[..line.len() - line.trim_start().len()];
     let help = if indentation.contains('\t') {
         Some("indent with blanks; YAML does not allow tabs")
     } else {
         HELP.iter().find(|(part, _)| problem.contains(part)).map(|(_, help)| *help)
     };
-    (location.index(), format!("not valid YAML: {problem}"), help)
+    source.diagnostic(Severity::Error, message, offset, help.map(str::to_owned))
 }
 
 /// What usually lies behind the parser's messages.
-const HELP: [(&str, &str); 8] = [
+const HELP: [(&str, &str); 9] = [
     ("mapping values are not allowed", "check the indentation; a text with a colon needs quotes"),
     ("could not find expected ':'", "a key is followed by a colon and a blank"),
     ("did not find expected ',' or ']'", "a comma or the closing ] is missing"),
@@ -150,5 +157,6 @@ const HELP: [(&str, &str); 8] = [
     ("did not find expected key", "check the indentation: the keys of a mapping start in the same column"),
     ("did not find expected '-'", "check the indentation: the items of a list start in the same column"),
     ("unexpected end of stream", "a quote is not closed"),
+    ("cannot start any token", "a text that starts with a special character needs quotes"),
     ("unknown anchor", "*NAME repeats a value that &NAME marks further up"),
 ];

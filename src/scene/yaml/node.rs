@@ -75,10 +75,20 @@ impl<'t> Node<'t> {
     }
 }
 
-/// Byte offset of `part` in `text`, if it is a slice of it.
-pub(crate) fn offset_in(text: &str, part: &str) -> Option<usize> {
+/// Byte offset of the scalar whose content is `part`, a slice of `text`. Of a quoted one that is the offset of the
+/// quote. Where escapes are in the way, the parser may return a slice from the middle of the scalar: then `None`.
+pub(super) fn offset_of(text: &str, part: &str) -> Option<usize> {
     let offset = (part.as_ptr() as usize).checked_sub(text.as_ptr() as usize)?;
-    (offset + part.len() <= text.len()).then_some(offset)
+    if offset + part.len() > text.len() {
+        return None;
+    }
+    let Some(before) = offset.checked_sub(1) else { return Some(offset) };
+    match *text.as_bytes().get(before)? {
+        b'"' => Some(before),
+        b'\'' if !part.starts_with('\'') => Some(before),
+        b' ' | b'\t' | b'\n' | b'\r' | b'[' | b'{' | b',' | b':' => Some(offset),
+        _ => None,
+    }
 }
 
 /// Reads one value of `text`; `left` counts down the values that may still come.
@@ -140,7 +150,7 @@ impl<'de> Visitor<'de> for NodeSeed<'_> {
     }
 
     fn visit_borrowed_str<E: Error>(self, text: &'de str) -> Result<Node<'de>, E> {
-        let offset = offset_in(self.text, text).and_then(|offset| u32::try_from(offset).ok());
+        let offset = offset_of(self.text, text).and_then(|offset| u32::try_from(offset).ok());
         Ok(Node { kind: Kind::Text(Cow::Borrowed(text)), offset: offset.unwrap_or(Node::NO_OFFSET) })
     }
 

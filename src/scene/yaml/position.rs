@@ -5,7 +5,7 @@
 //! that takes nothing fails at the value, and the parser's error says where that is. A value that is reached
 //! through an alias stands where it was written, at the anchor.
 
-use super::node::offset_in;
+use super::node::offset_of;
 use serde::de::{DeserializeSeed, Deserializer, Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
 use std::cell::RefCell;
 use std::fmt;
@@ -105,7 +105,7 @@ impl<'de> Visitor<'de> for Sweep<'_> {
     }
 
     fn visit_borrowed_str<E: Error>(self, part: &'de str) -> Result<(), E> {
-        let offset = offset_in(self.text, part);
+        let offset = offset_of(self.text, part);
         let mut found = self.found.borrow_mut();
         for &(_, i) in self.targets {
             if let Some(place) = found.get_mut(i) {

@@ -177,7 +177,7 @@ impl<'v> Value<'v> {
             Kind::Number(x) if range.holds(x) => Some(x),
             _ => {
                 let expected = format!("a finite number{}", range.words());
-                self.refuse(&expected, number_help(self.node), report);
+                self.refuse(&expected, number_help(self.node, range), report);
                 None
             }
         }
@@ -254,15 +254,17 @@ impl<'v> Value<'v> {
     }
 }
 
-/// What to do about a text that should have been a number.
-fn number_help(node: &Node<'_>) -> Option<String> {
-    let text = node.text()?;
-    let plain: String = text.chars().filter(|c| *c != '_').collect::<String>().replace(',', ".");
-    let number = plain.trim().parse::<f64>().ok().filter(|x| x.is_finite())?;
-    if plain == text {
-        return Some("remove the quotes".to_owned());
+/// What to do about a value that should have been a number in `range`.
+fn number_help(node: &Node<'_>, range: Range) -> Option<String> {
+    if let Kind::Number(byte) = node.kind {
+        let is_byte = range == Range::Unit && byte > 1.0 && byte <= 255.0;
+        return is_byte.then(|| format!("{byte} of 255 is {:.3}", byte / 255.0));
     }
-    Some(format!("write {number}"))
+    let text = node.text()?;
+    let plain = text.trim().replace('_', "").replace(',', ".");
+    let number = plain.parse::<f64>().ok().filter(|x| x.is_finite())?;
+    let quotes = if plain == text { " without quotes" } else { "" };
+    Some(format!("write {number}{quotes}"))
 }
 
 /// What was found, for a message.
@@ -277,6 +279,7 @@ impl fmt::Display for Found<'_> {
                 write!(f, "{x:e}")
             }
             Kind::Number(x) => write!(f, "{x}"),
+            Kind::Text(text) if text.parse::<f64>().is_ok_and(|x| !x.is_finite()) => write!(f, "{text}"),
             Kind::Text(text) => write!(f, "the text {}", quote(text)),
             Kind::List(items) if items.is_empty() => write!(f, "an empty list"),
             Kind::List(items) if items.len() == 1 => write!(f, "a list of 1 value"),

@@ -1,0 +1,5 @@
+//! Every bad input meets its exact message.
+
+mod corpus;
+mod hostile;
+mod mutations;
