@@ -21,3 +21,13 @@ mod embree;
 mod lights;
 /// Light transport against closed forms: furnaces, lights of every shape, the sky.
 mod transport;
+
+/// The sums: the tree of chunks.
+mod film;
+/// Pictures in files: curve, formats, whole or not at all.
+mod picture;
+/// Chunks, tiles, threads, stopping.
+mod render;
+
+/// The program from outside.
+mod cli;
