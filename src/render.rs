@@ -174,11 +174,9 @@ pub trait Watch: Sync {
 pub struct Rendered {
     /// The sums of all samples.
     pub film: Film,
-    /// What the integrator counted, in the chunks that the film holds.
+    /// What was counted in the chunks that the film holds. Dropped samples, which were not finite or negative, count
+    /// as black, so that all pixels have the same number of samples; there should be none.
     pub counters: Counters,
-    /// Samples that were not finite or negative. They count as black, so that all pixels have the same number of
-    /// samples; there should be none.
-    pub dropped: u64,
     /// Whether it was stopped before all samples were taken.
     pub cancelled: bool,
     /// Seconds to build the accelerator.
@@ -256,7 +254,7 @@ where
     let chunk = u64::from(settings.chunk);
     let mut film = Film::new(settings.width, settings.height, chunk);
     let meter = Meter::new(settings);
-    let mut totals = tile::Totals::default();
+    let mut counters = Counters::default();
     let mut cancelled = false;
     for index in 0..settings.samples.div_ceil(chunk) {
         let samples = index * chunk..settings.samples.min((index + 1) * chunk);
@@ -266,21 +264,23 @@ where
             .into_par_iter()
             .with_max_len(1)
             .map(|mut tile: Tile<'_>| {
-                let totals = tile.sum(samples.clone(), &sample, || watch.cancelled())?;
-                watch.progress(&meter.add(tile.pixels() * count, totals.counters.rays));
-                Some(totals)
+                let counters = tile.sum(samples.clone(), &sample, || watch.cancelled())?;
+                watch.progress(&meter.add(tile.pixels() * count, counters.rays));
+                Some(counters)
             })
-            .try_reduce(tile::Totals::default, |a, b| Some(a + b));
+            .try_reduce(Counters::default, |mut a, b| {
+                a += b;
+                Some(a)
+            });
         let Some(done) = done else {
             cancelled = true;
             break;
         };
-        totals = totals + done;
+        counters += done;
         film.add(index, count, sums)?;
     }
     let render_seconds = start.elapsed().as_secs_f64();
-    let tile::Totals { counters, dropped } = totals;
-    Ok(Rendered { film, counters, dropped, cancelled, build_seconds: 0.0, render_seconds })
+    Ok(Rendered { film, counters, cancelled, build_seconds: 0.0, render_seconds })
 }
 
 /// Adds up the work of all threads for [`Watch::progress`].

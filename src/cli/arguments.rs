@@ -26,11 +26,8 @@ const SWITCH: [(&str, bool); 2] = [("on", true), ("off", false)];
 const POSITIONALS: [&str; 6] = ["SCENE", "WIDTH", "HEIGHT", "SAMPLES", "BOUNCES", "IMAGE"];
 
 static VERSION: LazyLock<String> = LazyLock::new(|| {
-    let embree = match option_env!("PATHTRACER_EMBREE_VERSION") {
-        Some(version) => format!("Embree {version}"),
-        None => "no Embree".into(),
-    };
-    format!("{} ({embree})", env!("CARGO_PKG_VERSION"))
+    let embree = option_env!("PATHTRACER_EMBREE_VERSION").unwrap_or("none");
+    format!("{} (Embree: {embree})", env!("CARGO_PKG_VERSION"))
 });
 
 /// Everything on the command line.

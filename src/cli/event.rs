@@ -126,13 +126,13 @@ impl<'e> Summary<'e> {
         rendered: &Rendered,
         seconds: Seconds,
     ) -> Summary<'e> {
-        let Rendered { film, counters, dropped, .. } = rendered;
+        let Rendered { film, counters, .. } = rendered;
         let pixels = f64::from(film.width()) * f64::from(film.height());
         Summary {
             job: JobRecord::new(job),
             requires,
             samples_taken: film.samples(),
-            dropped_samples: *dropped,
+            dropped_samples: counters.dropped,
             rays: counters.rays,
             seconds,
             samples_per_second: per_second(pixels * film.samples() as f64, seconds.render),

@@ -55,10 +55,10 @@ pub(super) fn run(job: &Job) -> anyhow::Result<u8> {
 
 /// Says how it ended.
 fn conclude(job: &Job, rendered: &Rendered, seconds: Seconds) {
-    if rendered.dropped > 0 {
+    if rendered.counters.dropped > 0 {
         say(format_args!(
             "warning: {} samples were not finite or negative and count as black",
-            rendered.dropped
+            rendered.counters.dropped
         ));
     }
     if job.quiet {

@@ -2,31 +2,13 @@
 
 use crate::integrator::Counters;
 use crate::math::Rgb;
-use std::ops::{Add, Range};
+use std::ops::Range;
 
 /// A rectangle of a plane.
 pub(super) struct Tile<'p> {
     x: u32,
     y: u32,
     rows: Vec<&'p mut [Rgb]>,
-}
-
-/// What was counted while samples were taken.
-#[derive(Clone, Copy, Default)]
-pub(super) struct Totals {
-    pub(super) counters: Counters,
-    /// Samples that were not finite or negative.
-    pub(super) dropped: u64,
-}
-
-impl Add for Totals {
-    type Output = Totals;
-
-    fn add(mut self, other: Totals) -> Totals {
-        self.counters += other.counters;
-        self.dropped += other.dropped;
-        self
-    }
 }
 
 /// Cuts a plane with rows of `width` pixels into tiles of `side` x `side` pixels, fewer at the right and lower edges.
@@ -59,26 +41,26 @@ impl Tile<'_> {
         samples: Range<u64>,
         sample: &F,
         cancelled: impl Fn() -> bool,
-    ) -> Option<Totals>
+    ) -> Option<Counters>
     where
         F: Fn(u32, u32, u64, &mut Counters) -> Rgb,
     {
-        let mut totals = Totals::default();
+        let mut counters = Counters::default();
         for (row, y) in self.rows.iter_mut().zip(self.y..) {
             if cancelled() {
                 return None;
             }
             for (pixel, x) in row.iter_mut().zip(self.x..) {
                 for index in samples.clone() {
-                    let radiance = sample(x, y, index, &mut totals.counters);
+                    let radiance = sample(x, y, index, &mut counters);
                     if radiance.is_finite() && radiance.min_element() >= 0.0 {
                         *pixel += radiance;
                     } else {
-                        totals.dropped += 1;
+                        counters.dropped += 1;
                     }
                 }
             }
         }
-        Some(totals)
+        Some(counters)
     }
 }
