@@ -7,7 +7,7 @@ use super::frame::LocalRay;
 use crate::math::DVec3;
 
 /// Up to eight triangles, structure of arrays, in the f32 coordinates of their [`super::LocalFrame`].
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 #[repr(C, align(32))]
 pub struct TriangleBlock {
     /// Corner, axis, lane.

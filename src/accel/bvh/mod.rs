@@ -74,6 +74,16 @@ impl<'g> Bvh<'g> {
     }
 }
 
+impl PartialEq for Bvh<'_> {
+    /// The same nodes and leaves in the same places.
+    fn eq(&self, other: &Self) -> bool {
+        self.triangle_nodes == other.triangle_nodes
+            && self.blocks == other.blocks
+            && self.solid_nodes == other.solid_nodes
+            && self.solid_order == other.solid_order
+    }
+}
+
 /// The triangles in blocks of up to eight, grouped by the surface area heuristic.
 pub fn triangle_blocks(geometry: &Geometry) -> Vec<TriangleBlock> {
     pack(geometry, &triangle_tree(geometry))
