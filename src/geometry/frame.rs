@@ -111,7 +111,8 @@ impl LocalFrame {
             origin += ray.direction * advance;
             shift = advance / self.scale;
             // From so far away that the sphere drowns in the rounding, nothing can be told apart.
-            if !((origin - self.center).length_squared() <= near * near) {
+            let arrived = (origin - self.center).length_squared() <= near * near;
+            if !arrived {
                 return None;
             }
         }

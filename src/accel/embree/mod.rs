@@ -2,11 +2,11 @@
 //!
 //! | precision | triangles | who decides |
 //! |---|---|---|
-//! | exact | user geometry: boxes around blocks of up to eight triangles ([`blocks`]) | the shared leaf |
-//! | robust | triangle geometry, `RTC_SCENE_FLAG_ROBUST` ([`native`]) | Embree chooses the triangle, t, u, v are computed in f64 |
+//! | exact | user geometry: boxes around blocks of up to eight triangles (`blocks`) | the shared leaf |
+//! | robust | triangle geometry, `RTC_SCENE_FLAG_ROBUST` (`native`) | Embree chooses the triangle, t, u, v are computed in f64 |
 //! | fast | triangle geometry, high build quality (spatial splits) | the same |
 //!
-//! Solids are user geometry of a scene of their own, in their own local space ([`solids`]), and always exact.
+//! Solids are user geometry of a scene of their own, in their own local space (`solids`), and always exact.
 //!
 //! At exact Embree only has to enter every box whose content may be hit. It does: its node test for user geometry errs
 //! by a few roundings of the largest coordinate, the boxes are widened by more ([`LocalFrame::padding`]), and after a
