@@ -37,10 +37,16 @@ pub struct Scene {
 /// meshes if it holds a mistake.
 pub fn load(path: &Path) -> Result<Scene> {
     let failed = |source| Error::Io { action: "read the scene".into(), path: path.to_path_buf(), source };
+    let file = File::open(path).map_err(failed)?;
+    let size = file.metadata().map_err(failed)?.len();
     let mut bytes = Vec::new();
-    File::open(path)
-        .and_then(|file| file.take(yaml::MAX_BYTES + 1).read_to_end(&mut bytes))
-        .map_err(failed)?;
+    if size <= yaml::MAX_BYTES {
+        // A pipe has no size, and a file may grow.
+        file.take(yaml::MAX_BYTES + 1).read_to_end(&mut bytes).map_err(failed)?;
+    }
+    if size > yaml::MAX_BYTES || bytes.len() as u64 > yaml::MAX_BYTES {
+        return Err(Error::Scene(vec![yaml::too_large(path)]));
+    }
     let text = yaml::decode(&bytes, path).map_err(|diagnostic| Error::Scene(vec![*diagnostic]))?;
     read_text(text, path)
 }

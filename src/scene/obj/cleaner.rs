@@ -68,6 +68,8 @@ pub(super) struct Cleaner<R> {
     batch: Vec<u8>,
     consumed: usize,
     faces_in_group: usize,
+    /// Why reading failed. `tobj` keeps to itself what it is told.
+    failure: Option<io::Error>,
     /// Counts of a finished survey. Faces may name what comes later, so only with these the first pass's doubts
     /// about indices that are too high become faults.
     limits: Option<[usize; 3]>,
@@ -84,6 +86,7 @@ impl<R: BufRead> Cleaner<R> {
             batch: Vec::new(),
             consumed: 0,
             faces_in_group: 0,
+            failure: None,
             limits,
             survey: Survey::default(),
         }
@@ -91,6 +94,9 @@ impl<R: BufRead> Cleaner<R> {
 
     /// Surveys what is left of the file.
     pub(super) fn finish(mut self) -> io::Result<Survey> {
+        if let Some(failure) = self.failure {
+            return Err(failure);
+        }
         while self.read_statement()? {
             self.batch.clear();
         }
@@ -133,7 +139,17 @@ impl<R: BufRead> BufRead for Cleaner<R> {
         if self.consumed >= self.batch.len() {
             self.consumed = 0;
             self.batch.clear();
-            while self.batch.len() < BATCH && self.read_statement()? {}
+            while self.batch.len() < BATCH {
+                match self.read_statement() {
+                    Ok(true) => {}
+                    Ok(false) => break,
+                    Err(failure) => {
+                        let kind = failure.kind();
+                        self.failure = Some(failure);
+                        return Err(kind.into());
+                    }
+                }
+            }
         }
         Ok(self.batch.get(self.consumed..).unwrap_or_default())
     }

@@ -57,8 +57,8 @@ pub(super) fn read(value: Value<'_>, report: &mut Report) -> Option<CameraDesc> 
 fn fov(fields: &Fields<'_>, meaning: &str, report: &mut Report) -> Option<f64> {
     let value = fields.require("Fov", meaning, report)?;
     match value.node.number() {
-        Some(degrees) if (2.0..180.0).contains(&degrees) => {
-            let help = format!("Fov is a fraction of pi; {degrees} degrees are {}", degrees / 180.0);
+        Some(degrees) if (10.0..180.0).contains(&degrees) => {
+            let help = format!("Fov is a fraction of pi; {degrees} degrees are {:.4}", degrees / 180.0);
             value.refuse("a finite number > 0 and < 1", Some(help), report);
             None
         }

@@ -21,10 +21,6 @@ const MAX_INDICATORS: usize = 2 * MAX_VALUES;
 
 /// The text of a file, without its byte-order mark.
 pub(crate) fn decode<'b>(bytes: &'b [u8], file: &Path) -> Result<&'b str, Box<Diagnostic>> {
-    if bytes.len() as u64 > MAX_BYTES {
-        let message = format!("the scene file is larger than {} MiB", MAX_BYTES >> 20);
-        return Err(Box::new(whole_file(message, file, "put large meshes into OBJ files")));
-    }
     if bytes.starts_with(&[0xFF, 0xFE]) || bytes.starts_with(&[0xFE, 0xFF]) {
         return Err(Box::new(whole_file("the scene file is UTF-16".to_owned(), file, "save it as UTF-8")));
     }
@@ -41,6 +37,12 @@ pub(crate) fn decode<'b>(bytes: &'b [u8], file: &Path) -> Result<&'b str, Box<Di
         };
         Box::new(Source::new(file, &shown).diagnostic(Severity::Error, message, valid.len(), help))
     })
+}
+
+/// The diagnostic for a file of more than [`MAX_BYTES`].
+pub(crate) fn too_large(file: &Path) -> Diagnostic {
+    let message = format!("the scene file is larger than {} MiB", MAX_BYTES >> 20);
+    whole_file(message, file, "put large meshes into OBJ files")
 }
 
 /// A diagnostic about the file as such.

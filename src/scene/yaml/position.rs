@@ -62,7 +62,19 @@ pub(crate) fn find(text: &str, targets: &[Target]) -> Vec<Option<usize>> {
 fn search(text: &str, target: &Target) -> Option<usize> {
     let search = Search { path: &target.path, key: target.part == Part::Key };
     let error = search.deserialize(serde_yaml::Deserializer::from_str(text)).err()?;
-    error.location().map(|location| location.index())
+    error.location().map(|location| behind_anchor(text, location.index()))
+}
+
+/// The parser's mark of a value is that of its anchor or standard tag, if it has one; the value comes after.
+fn behind_anchor(text: &str, mark: usize) -> usize {
+    let mut rest = text.get(mark..).unwrap_or("");
+    while rest.starts_with('&') || rest.starts_with("!!") {
+        rest = rest.trim_start_matches(|c: char| !c.is_whitespace()).trim_start();
+        while rest.starts_with('#') {
+            rest = rest.trim_start_matches(|c| c != '\n').trim_start();
+        }
+    }
+    text.len() - rest.len()
 }
 
 /// Reads the scalars at the ends of `targets`, which are sorted and agree in their first `depth` steps.

@@ -257,8 +257,8 @@ impl<'v> Value<'v> {
 /// What to do about a value that should have been a number in `range`.
 fn number_help(node: &Node<'_>, range: Range) -> Option<String> {
     if let Kind::Number(byte) = node.kind {
-        let is_byte = range == Range::Unit && byte > 1.0 && byte <= 255.0;
-        return is_byte.then(|| format!("{byte} of 255 is {:.3}", byte / 255.0));
+        let is_byte = range == Range::Unit && (16.0..=255.0).contains(&byte) && byte.fract() == 0.0;
+        return is_byte.then(|| format!("as a share of 255 that is {:.3}", byte / 255.0));
     }
     let text = node.text()?;
     let plain = text.trim().replace('_', "").replace(',', ".");
