@@ -51,6 +51,13 @@ impl LocalRay {
         self.excluded[0] == id || self.excluded[1] == id
     }
 
+    /// The indices of the triangles that can't be hit, as [`LocalRay::excludes`] tells them one by one; `u32::MAX` and
+    /// others that no triangle has where there is none.
+    #[inline(always)]
+    pub(super) fn excluded_indices(&self) -> [u32; 2] {
+        self.excluded.map(PrimitiveId::bits)
+    }
+
     /// `t_max` for an f32 kernel: rounded up.
     pub fn t_max32(&self) -> f32 {
         round_up(self.t_max)

@@ -50,7 +50,9 @@ impl Kernel for Blocks<'_> {
 
     fn closest_triangle(&self, ray: &LocalRay) -> Option<TriangleHit> {
         let mut best = None;
-        self.visited(ray).for_each(|block| closest_in_block(block, ray, &mut best));
+        for block in self.visited(ray) {
+            closest_in_block(block, ray, &mut best);
+        }
         best
     }
 

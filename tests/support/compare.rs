@@ -52,8 +52,12 @@ pub(crate) fn differences<A: Accelerator, B: Accelerator>(a: &A, b: &B, rays: &[
 /// Fails with the first few differences.
 pub(crate) fn assert_identical<A: Accelerator, B: Accelerator>(what: &str, a: &A, b: &B, rays: &[Ray]) {
     let found = differences(a, b, rays);
-    let first = &found[..found.len().min(3)];
-    assert!(found.is_empty(), "{what}: {} of {} rays differ: {first:#?}", found.len(), rays.len());
+    let first = found.iter().take(3).map(|difference| {
+        let Difference { ray, answers: [a, b] } = difference;
+        format!("\nfrom {:?} along {:?}:\n  {a:?}\n  {b:?}", ray.origin, ray.direction)
+    });
+    let first: String = first.collect();
+    assert!(found.is_empty(), "{what}: {} of {} rays differ:{first}", found.len(), rays.len());
 }
 
 /// How many rays hit anything.

@@ -24,7 +24,7 @@ impl Leaf for FastTriangles<'_> {
         let block = &self.blocks[leaf as usize];
         let (mut mask, distances) = hits(block, self.ray, self.t);
         while mask != 0 {
-            let lane = mask.trailing_zeros() as usize & 7;
+            let lane = mask.trailing_zeros() as usize / 8;
             mask &= mask - 1;
             let (t, index) = (distances[lane], block.lane_index(lane));
             let tie = t == self.t && self.index.is_none_or(|best| index < best);
@@ -35,11 +35,16 @@ impl Leaf for FastTriangles<'_> {
     }
 
     #[inline(always)]
+    fn address(&self, leaf: u32) -> *const u8 {
+        self.blocks.as_ptr().wrapping_add(leaf as usize).cast()
+    }
+
+    #[inline(always)]
     fn any(&self, leaf: u32) -> bool {
         let block = &self.blocks[leaf as usize];
         let (mut mask, distances) = hits(block, self.ray, self.t);
         while mask != 0 {
-            let lane = mask.trailing_zeros() as usize & 7;
+            let lane = mask.trailing_zeros() as usize / 8;
             mask &= mask - 1;
             if distances[lane] < self.t && !self.ray.excludes(block.lane_index(lane)) {
                 return true;
@@ -49,12 +54,12 @@ impl Leaf for FastTriangles<'_> {
     }
 }
 
-/// A bit for every lane that is hit at a distance in (0, `limit`], and the distances.
+/// The lowest bit of byte i tells whether lane i is hit at a distance in (0, `limit`]; and the distances.
 ///
 /// Möller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997, without its epsilon: the weights are
 /// compared with the determinant, and the division is left to last.
 #[inline(always)]
-fn hits(block: &TriangleBlock, ray: &LocalRay, limit: f32) -> (u32, [f32; 8]) {
+fn hits(block: &TriangleBlock, ray: &LocalRay, limit: f32) -> (u64, [f32; 8]) {
     let (o, d) = (ray.origin.to_array(), ray.direction.to_array());
     let [p0, p1, p2] = block.corner_lanes();
     let mut distances = [0f32; 8];
@@ -72,11 +77,7 @@ fn hits(block: &TriangleBlock, ray: &LocalRay, limit: f32) -> (u32, [f32; 8]) {
         distances[lane] = t / size;
         hit[lane] = (u >= 0.0) & (v >= 0.0) & (u + v <= size) & (t > 0.0) & (distances[lane] <= limit);
     }
-    let mut mask = 0;
-    for (lane, &hit) in hit.iter().enumerate() {
-        mask |= u32::from(hit) << lane;
-    }
-    (mask, distances)
+    (u64::from_le_bytes(hit.map(u8::from)), distances)
 }
 
 #[inline(always)]

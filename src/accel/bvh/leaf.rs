@@ -12,17 +12,33 @@ pub(super) struct ExactTriangles<'t> {
     pub(super) blocks: &'t [TriangleBlock],
     pub(super) ray: &'t LocalRay,
     pub(super) best: Option<TriangleHit>,
+    limit: f32,
+}
+
+impl<'t> ExactTriangles<'t> {
+    pub(super) fn new(blocks: &'t [TriangleBlock], ray: &'t LocalRay) -> ExactTriangles<'t> {
+        ExactTriangles { blocks, ray, best: None, limit: ray.t_max32() }
+    }
 }
 
 impl Leaf for ExactTriangles<'_> {
     #[inline(always)]
     fn limit(&self) -> f32 {
-        self.best.map_or(self.ray.t_max32(), |best| round_up(best.t))
+        self.limit
     }
 
     #[inline(always)]
     fn closest(&mut self, leaf: u32) {
-        closest_in_block(&self.blocks[leaf as usize], self.ray, &mut self.best);
+        if closest_in_block(&self.blocks[leaf as usize], self.ray, &mut self.best)
+            && let Some(best) = &self.best
+        {
+            self.limit = round_up(best.t);
+        }
+    }
+
+    #[inline(always)]
+    fn address(&self, leaf: u32) -> *const u8 {
+        self.blocks.as_ptr().wrapping_add(leaf as usize).cast()
     }
 
     #[inline(always)]
@@ -61,6 +77,11 @@ impl Leaf for Solids<'_> {
         let solid = self.order[leaf as usize];
         let hit = self.geometry.intersect_solid(solid, self.ray, distance(&self.best));
         self.best = nearer(self.best, hit);
+    }
+
+    #[inline(always)]
+    fn address(&self, leaf: u32) -> *const u8 {
+        self.order.as_ptr().wrapping_add(leaf as usize).cast()
     }
 
     #[inline(always)]

@@ -11,7 +11,6 @@ mod leaf;
 mod node;
 mod simd;
 mod split;
-mod stack;
 mod traverse;
 mod validate;
 
@@ -152,7 +151,7 @@ impl Kernel for Bvh<'_> {
         let node_ray = NodeRay::new(ray);
         let (nodes, blocks) = (&self.triangle_nodes[..], &self.blocks[..]);
         if self.precision != Precision::Fast {
-            let mut leaf = ExactTriangles { blocks, ray, best: None };
+            let mut leaf = ExactTriangles::new(blocks, ray);
             self.instructions.closest(nodes, &node_ray, &mut leaf);
             return leaf.best;
         }
@@ -167,7 +166,7 @@ impl Kernel for Bvh<'_> {
         let node_ray = NodeRay::new(ray);
         let (nodes, blocks) = (&self.triangle_nodes[..], &self.blocks[..]);
         if self.precision != Precision::Fast {
-            let leaf = ExactTriangles { blocks, ray, best: None };
+            let leaf = ExactTriangles::new(blocks, ray);
             return self.instructions.any(nodes, &node_ray, &leaf);
         }
         let leaf = FastTriangles { blocks, ray, t: ray.t_max32(), index: None };

@@ -164,7 +164,7 @@ fn best_plane(part: &Part, block: usize) -> Option<Plane> {
         binning.fill(part.prims)
     } else {
         let chunks: Vec<Bins> = part.prims.par_chunks(CHUNK).map(|chunk| binning.fill(chunk)).collect();
-        chunks.iter().fold([[EMPTY_BIN; MAX_BINS]; 3], |sum, chunk| join(sum, chunk))
+        chunks.iter().fold([[EMPTY_BIN; MAX_BINS]; 3], join)
     };
     let mut best = None;
     let mut least = f32::INFINITY;

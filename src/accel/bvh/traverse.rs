@@ -4,8 +4,7 @@
 //! each.
 
 use super::node::{Child, Node, NodeRay};
-use super::simd::Lanes;
-use super::stack::{Entry, Stack};
+use super::simd::{Entry, Lanes, Stack, prefetch};
 
 /// What is in the leaves of a tree, and the best hit so far.
 pub(super) trait Leaf {
@@ -18,6 +17,9 @@ pub(super) trait Leaf {
 
     /// Whether anything in a leaf is hit.
     fn any(&self, leaf: u32) -> bool;
+
+    /// Where a leaf is in memory.
+    fn address(&self, leaf: u32) -> *const u8;
 }
 
 /// Finds the closest hit; `leaf` holds it afterwards.
@@ -34,7 +36,7 @@ pub(super) fn closest<L: Leaf, S: Lanes>(nodes: &[Node], ray: &NodeRay, leaf: &m
             let node = &nodes[child.index() as usize];
             let (mask, near) = lanes.enter(node, ray, limit);
             if mask != 0 {
-                child = nearest(node, mask, &near, &mut stack);
+                child = nearest(nodes, node, leaf, mask, near, &mut stack, lanes);
                 continue;
             }
         }
@@ -45,36 +47,51 @@ pub(super) fn closest<L: Leaf, S: Lanes>(nodes: &[Node], ray: &NodeRay, leaf: &m
     }
 }
 
-/// The nearest of the children that are hit; the others go on the stack, the farthest first.
+/// The nearest of the children in `mask`, at least one; the others go on the stack, the farthest first.
 #[inline(always)]
-fn nearest(node: &Node, mut mask: u32, near: &[f32; 8], stack: &mut Stack) -> Child {
-    let mut take = || {
-        let lane = mask.trailing_zeros() as usize & 7;
+fn nearest<L: Leaf, S: Lanes>(
+    nodes: &[Node],
+    node: &Node,
+    leaf: &L,
+    mask: u32,
+    near: S::Distances,
+    stack: &mut Stack,
+    lanes: S,
+) -> Child {
+    let first = lowest(mask);
+    let rest = mask & (mask - 1);
+    if rest == 0 {
+        return node.children[first];
+    }
+    fetch_all(nodes, node, leaf, mask);
+    let second = lowest(rest);
+    if rest & (rest - 1) == 0 {
+        let near = lanes.to_array(near);
+        let (first, second) = if near[first] < near[second] { (first, second) } else { (second, first) };
+        stack.push(Entry::new(near[second], node.children[second]));
+        return node.children[first];
+    }
+    lanes.push_sorted(node, mask, near, stack);
+    stack.pop().map_or(Child::NONE, Entry::child)
+}
+
+/// The lowest lane in a mask.
+#[inline(always)]
+fn lowest(mask: u32) -> usize {
+    mask.trailing_zeros() as usize & 7
+}
+
+/// Asks for the memory of the children in `mask`.
+#[inline(always)]
+fn fetch_all<L: Leaf>(nodes: &[Node], node: &Node, leaf: &L, mut mask: u32) {
+    while mask != 0 {
+        let child = node.children[lowest(mask)];
         mask &= mask - 1;
-        (Entry::new(near[lane], node.children[lane]), mask == 0)
-    };
-    let (first, alone) = take();
-    if alone {
-        return first.child();
+        // Both addresses, so that no branch has to be guessed.
+        let inner = nodes.as_ptr().wrapping_add(child.index() as usize).cast::<u8>();
+        let outer = leaf.address(child.index());
+        prefetch::<4>(if child.is_leaf() { outer } else { inner });
     }
-    let (second, last) = take();
-    let (closer, farther) = if first < second { (first, second) } else { (second, first) };
-    if last {
-        stack.push(farther);
-        return closer.child();
-    }
-    stack.push(farther);
-    stack.push(closer);
-    let mut count = 2;
-    loop {
-        let (next, last) = take();
-        stack.push(next);
-        count += 1;
-        if last {
-            break;
-        }
-    }
-    stack.sort_top(count)
 }
 
 /// Whether anything is hit; leaves end the search.
@@ -91,13 +108,19 @@ pub(super) fn any<L: Leaf, S: Lanes>(nodes: &[Node], ray: &NodeRay, leaf: &L, la
         } else {
             let node = &nodes[child.index() as usize];
             let (mut mask, _) = lanes.enter(node, ray, limit);
-            while mask != 0 {
-                stack.push(Entry::new(0.0, node.children[mask.trailing_zeros() as usize & 7]));
+            if mask != 0 {
+                child = node.children[lowest(mask)];
+                fetch_all(nodes, node, leaf, mask & (mask - 1));
                 mask &= mask - 1;
+                while mask != 0 {
+                    stack.push(Entry::new(0.0, node.children[lowest(mask)]));
+                    mask &= mask - 1;
+                }
+                continue;
             }
         }
-        match stack.pop_within(limit) {
-            Some(next) => child = next,
+        match stack.pop() {
+            Some(next) => child = next.child(),
             None => return false,
         }
     }
