@@ -87,17 +87,20 @@ impl Device {
         Ok(device)
     }
 
-    /// Structures grew within 4.x: the library must be of the minor version whose headers were bound.
+    /// The library must be what was bound, or a later one of the same layout: `RTCHit` last grew in 4.3.
     fn check_version(&self) -> Result<()> {
         let [major, minor] = [RTC_DEVICE_PROPERTY_VERSION_MAJOR, RTC_DEVICE_PROPERTY_VERSION_MINOR]
             // SAFETY: the device is live.
             .map(|property| unsafe { rtcGetDeviceProperty(self.raw, property) });
-        if (major, minor) == (RTC_VERSION_MAJOR as isize, RTC_VERSION_MINOR as isize) {
+        let bound = (RTC_VERSION_MAJOR as isize, RTC_VERSION_MINOR as isize);
+        let later = major == bound.0 && minor > bound.1 && bound >= (4, 3);
+        if (major, minor) == bound || later {
             return Ok(());
         }
         Err(Error::Unavailable(format!(
-            "this program was built for Embree {RTC_VERSION_MAJOR}.{RTC_VERSION_MINOR}, but Embree {major}.{minor} \
-             was loaded: build it again, or set LD_LIBRARY_PATH"
+            "this program was built for Embree {}.{}, but Embree {major}.{minor} was loaded: build it again, or set \
+             LD_LIBRARY_PATH",
+            bound.0, bound.1
         )))
     }
 
