@@ -129,6 +129,8 @@ pub enum Error {
     Picture(String),
     /// The user stopped the render.
     Interrupted,
+    /// A bug in this program, met and contained.
+    Internal(String),
 }
 
 impl fmt::Display for Error {
@@ -149,6 +151,7 @@ impl fmt::Display for Error {
             | Error::Picture(message) => write!(f, "{message}"),
             Error::Io { action, path, source } => write!(f, "cannot {action} {}: {source}", path.display()),
             Error::Interrupted => write!(f, "interrupted"),
+            Error::Internal(message) => write!(f, "a bug in this program: {message}"),
         }
     }
 }
@@ -169,7 +172,7 @@ impl Error {
             Error::Scene(_) => 3,
             Error::Usage(_) | Error::Unavailable(_) => 2,
             Error::Interrupted => 130,
-            Error::Io { .. } | Error::Accelerator(_) | Error::Picture(_) => 1,
+            Error::Io { .. } | Error::Accelerator(_) | Error::Picture(_) | Error::Internal(_) => 1,
         }
     }
 }

@@ -1,3 +1,13 @@
 //! The program: parse, run, print one error, exit code.
 
-fn main() {}
+use std::env;
+use std::ffi::OsString;
+use std::process::ExitCode;
+
+use pathtracer::cli;
+
+fn main() -> ExitCode {
+    let arguments: Vec<OsString> = env::args_os().collect();
+    let code = cli::run(&arguments).unwrap_or_else(|error| cli::report(&error, &arguments));
+    ExitCode::from(code)
+}

@@ -8,18 +8,34 @@ mod assets;
 /// The makers of the committed meshes and scenes.
 mod generate;
 
-/// Every lobe against its density, its colour, its limits.
-mod material;
+/// Pictures in files: curve, formats, whole or not at all.
+mod picture;
+
+/// Scene files and meshes as they should be: every key, every default, every style.
+mod scene_format;
+/// Bad scenes and meshes: each mistake and its message.
+mod scene_errors;
+
+/// Accelerators: identity with the oracle, leaks, ties, odd rays, structure.
+mod accel;
+/// Embree: the oracle's hits at exact, the promises of robust and fast, refusals.
+#[cfg(feature = "embree")]
+mod embree;
+
 /// The samplers and the warps.
 mod sampling;
+/// Every lobe against its density, its colour, its limits.
+mod material;
 
 /// Every light against its density.
 mod lights;
 /// Light transport against closed forms: furnaces, lights of every shape, the sky.
 mod transport;
 
-/// Scene files and meshes as they should be: every key, every default, every style.
-mod scene_format;
+/// The sums: the tree of chunks.
+mod film;
+/// Chunks, tiles, threads, stopping.
+mod render;
 
-/// Bad scenes and meshes: each mistake and its message.
-mod scene_errors;
+/// The program from outside.
+mod cli;

@@ -5,6 +5,9 @@
 //! back by the key of [`crate::geometry`].
 
 pub mod brute_force;
+pub mod bvh;
+#[cfg(feature = "embree")]
+pub mod embree;
 
 use crate::geometry::{Geometry, Hit, LocalFrame, LocalRay, PrimitiveId, Ray, TriangleHit};
 

@@ -1,1 +1,60 @@
-//! cli
+//! The command line: what was typed, what it means, what is printed, exit codes.
+//!
+//! Results go to stdout, everything for humans to stderr. Exit codes: 0 done, 1 failure, 2 usage, 3 bad scene,
+//! 130 and 143 interrupted.
+
+mod arguments;
+mod check;
+mod console;
+mod describe;
+mod event;
+mod interrupt;
+mod progress;
+mod render;
+
+use crate::error::Error;
+use arguments::{Arguments, Command};
+use event::Event;
+use std::ffi::OsString;
+
+/// Runs the command that the arguments ask for, the program's name first, and returns the exit code.
+pub fn run(arguments: &[OsString]) -> anyhow::Result<u8> {
+    let Arguments { command, render } = Arguments::parse(arguments)?;
+    match command {
+        Some(Command::Check { scenes }) => Ok(check::run(&scenes)),
+        None => render::run(&render.resolve()?),
+    }
+}
+
+/// Prints the error of [`run`], with `--json` among the arguments also as an event, and returns the exit code.
+pub fn report(error: &anyhow::Error, arguments: &[OsString]) -> u8 {
+    if let Some(error) = error.downcast_ref::<clap::Error>()
+        && !error.use_stderr()
+    {
+        // Help or version was asked for. A reader that has gone away is no failure.
+        let _ = error.print();
+        return 0;
+    }
+    let code = exit_code(error);
+    if arguments.iter().any(|argument| argument == "--json") {
+        event::emit(&Event::error(code, error));
+    }
+    match (error.downcast_ref::<clap::Error>(), error.downcast_ref::<Error>()) {
+        (Some(error), _) => drop(error.print()),
+        // Each mistake of a scene comes with its own "error:".
+        (_, Some(Error::Scene(_))) => console::say(error),
+        _ => console::say(format_args!("error: {error}")),
+    }
+    code
+}
+
+fn exit_code(error: &anyhow::Error) -> u8 {
+    if error.is::<clap::Error>() {
+        return Error::Usage(String::new()).exit_code();
+    }
+    match error.downcast_ref::<Error>() {
+        Some(error @ Error::Interrupted) => interrupt::exit_code().unwrap_or(error.exit_code()),
+        Some(error) => error.exit_code(),
+        None => 1,
+    }
+}

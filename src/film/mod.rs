@@ -1,1 +1,124 @@
-//! film
+//! The sums of all samples.
+//!
+//! Samples are counted in chunks of a fixed number. Inside a chunk a pixel's samples are summed in f64 in sample order.
+//! Chunk sums are combined in a binary tree that is fixed by the index of the chunk: the chunks `[i 2^k, (i + 1) 2^k)`
+//! form a node, the sum of its two halves. A film keeps the largest nodes that are complete, as a binary counter keeps
+//! its digits; so the order in which chunks arrive, and any split of a render at chunk borders, make the same bits.
+
+use crate::error::{Error, Result};
+use crate::math::Rgb;
+
+/// The sum of an aligned run of chunks.
+#[derive(Clone, Debug, PartialEq)]
+struct Node {
+    /// Index of the first chunk, a multiple of `chunks`.
+    first: u64,
+    /// Number of chunks, a power of two.
+    chunks: u64,
+    /// Samples per pixel in it; fewer than the chunks have room for where sampling ended inside a chunk.
+    samples: u64,
+    /// One sum a pixel, row by row from the top left.
+    sums: Vec<Rgb>,
+}
+
+/// The sums of a picture's samples, one a pixel; every pixel has the same number of samples.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Film {
+    width: u32,
+    height: u32,
+    chunk: u64,
+    /// Ascending by `first`, without overlap.
+    nodes: Vec<Node>,
+}
+
+impl Film {
+    /// A film without samples, of `width` x `height` pixels and `chunk` > 0 samples a chunk.
+    pub fn new(width: u32, height: u32, chunk: u64) -> Film {
+        Film { width, height, chunk, nodes: Vec::new() }
+    }
+
+    /// Pixels in a row.
+    pub fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// Rows.
+    pub fn height(&self) -> u32 {
+        self.height
+    }
+
+    /// Samples that every pixel has.
+    pub fn samples(&self) -> u64 {
+        self.nodes.iter().map(|node| node.samples).sum()
+    }
+
+    /// Adds the sums of one chunk: `samples` (at most the size of a chunk) a pixel, row by row from the top left.
+    /// Chunks may come in any order. An error if the film has this chunk already or the sizes differ.
+    pub fn add(&mut self, chunk: u64, samples: u64, sums: Vec<Rgb>) -> Result<()> {
+        if sums.len() as u64 != u64::from(self.width) * u64::from(self.height) || samples > self.chunk {
+            return Err(Error::Usage("a chunk of another size can't be added to this film".into()));
+        }
+        self.insert(Node { first: chunk, chunks: 1, samples, sums })
+    }
+
+    /// Adds the chunks of another part of the same render. An error if the sizes differ or a chunk is in both.
+    pub fn merge(&mut self, other: Film) -> Result<()> {
+        if (self.width, self.height, self.chunk) != (other.width, other.height, other.chunk) {
+            return Err(Error::Usage("films of different sizes can't be merged".into()));
+        }
+        other.nodes.into_iter().try_for_each(|node| self.insert(node))
+    }
+
+    /// The mean of every pixel, row by row from the top left; zero before the first sample.
+    pub fn means(&self) -> impl Iterator<Item = Rgb> + '_ {
+        let pixels = if self.nodes.is_empty() { 0 } else { self.width as usize * self.height as usize };
+        let weight = 1.0 / self.samples().max(1) as f64;
+        (0..pixels).map(move |pixel| {
+            let sums = self.nodes.iter().rev().map(|node| node.sums[pixel]);
+            sums.reduce(|sum, node| sum + node).unwrap_or(Rgb::ZERO) * weight
+        })
+    }
+
+    /// How many sums a pixel are held at once, at most, while `chunks` chunks arrive in order.
+    pub fn most_nodes(chunks: u64) -> u64 {
+        u64::from(chunks.checked_ilog2().unwrap_or(0)) + 1
+    }
+
+    fn insert(&mut self, node: Node) -> Result<()> {
+        let at = self.nodes.partition_point(|other| other.first < node.first);
+        let before = at.checked_sub(1).and_then(|i| self.nodes.get(i));
+        let overlaps = before.is_some_and(|other| other.first + other.chunks > node.first)
+            || self.nodes.get(at).is_some_and(|other| node.first + node.chunks > other.first);
+        if overlaps {
+            return Err(Error::Usage(format!("the film has the samples of chunk {} already", node.first)));
+        }
+        self.nodes.insert(at, node);
+        self.carry(at);
+        Ok(())
+    }
+
+    /// Combines the node at `at` with its other half, and the result again, as long as both are complete.
+    fn carry(&mut self, mut at: usize) {
+        loop {
+            let node = &self.nodes[at];
+            let is_left = (node.first / node.chunks).is_multiple_of(2);
+            let left = if is_left { Some(at) } else { at.checked_sub(1) };
+            let Some(left) = left.filter(|&left| self.are_halves(left)) else { return };
+            let right = self.nodes.remove(left + 1);
+            let node = &mut self.nodes[left];
+            node.sums.iter_mut().zip(&right.sums).for_each(|(sum, &other)| *sum += other);
+            node.chunks *= 2;
+            node.samples += right.samples;
+            at = left;
+        }
+    }
+
+    /// Whether the nodes at `left` and after it are the complete halves of a node.
+    fn are_halves(&self, left: usize) -> bool {
+        let (Some(a), Some(b)) = (self.nodes.get(left), self.nodes.get(left + 1)) else { return false };
+        let is_complete = |node: &Node| node.samples == node.chunks * self.chunk;
+        let fit =
+            a.chunks == b.chunks && (a.first / a.chunks).is_multiple_of(2) && a.first + a.chunks == b.first;
+        fit && is_complete(a) && is_complete(b)
+    }
+}

@@ -51,6 +51,13 @@ impl LocalRay {
         self.excluded[0] == id || self.excluded[1] == id
     }
 
+    /// The indices of the triangles that can't be hit, as [`LocalRay::excludes`] tells them one by one; `u32::MAX` and
+    /// others that no triangle has where there is none.
+    #[inline(always)]
+    pub(super) fn excluded_indices(&self) -> [u32; 2] {
+        self.excluded.map(PrimitiveId::bits)
+    }
+
     /// `t_max` for an f32 kernel: rounded up.
     pub fn t_max32(&self) -> f32 {
         round_up(self.t_max)
@@ -110,6 +117,11 @@ impl LocalFrame {
             let advance = enter_sphere(offset, ray.direction, self.radius * 1.01)?;
             origin += ray.direction * advance;
             shift = advance / self.scale;
+            // From so far away that the sphere drowns in the rounding, nothing can be told apart.
+            let arrived = (origin - self.center).length_squared() <= near * near;
+            if !arrived {
+                return None;
+            }
         }
         let local_t_max = (t_max - shift) * self.scale;
         if local_t_max <= 0.0 {
@@ -135,11 +147,9 @@ const ROUNDING_SLACK: f64 = 1.0 / 1_048_576.0;
 /// Distance at which a ray from `offset` (relative to the centre, outside) enters the sphere.
 fn enter_sphere(offset: DVec3, direction: DVec3, radius: f64) -> Option<f64> {
     let along = -offset.dot(direction);
-    if along <= 0.0 {
-        return None;
-    }
     let perpendicular = (offset + direction * along).length();
-    if perpendicular > radius {
+    // Written so that an overflow is a miss.
+    if !(along > 0.0 && perpendicular <= radius) {
         return None;
     }
     Some((along - ((radius - perpendicular) * (radius + perpendicular)).sqrt()).max(0.0))

@@ -55,6 +55,12 @@ impl PrimitiveId {
         PrimitiveId(index | Self::SOLID)
     }
 
+    /// The bits: a triangle's index, or numbers from 2^31 on.
+    #[inline(always)]
+    fn bits(self) -> u32 {
+        self.0
+    }
+
     /// The index, if this is a triangle.
     pub fn as_triangle(self) -> Option<u32> {
         (self.0 & Self::SOLID == 0).then_some(self.0)

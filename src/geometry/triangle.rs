@@ -7,7 +7,7 @@ use super::frame::LocalRay;
 use crate::math::DVec3;
 
 /// Up to eight triangles, structure of arrays, in the f32 coordinates of their [`super::LocalFrame`].
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 #[repr(C, align(32))]
 pub struct TriangleBlock {
     /// Corner, axis, lane.
@@ -44,8 +44,9 @@ pub(super) fn edge(p: DVec3, q: DVec3, d: DVec3) -> f64 {
 pub fn intersect_triangle(origin: DVec3, direction: DVec3, corners: [DVec3; 3]) -> Option<(f64, f64, f64)> {
     let [a, b, c] = corners.map(|corner| corner - origin);
     let (wa, wb, wc) = (edge(b, c, direction), edge(c, a, direction), edge(a, b, direction));
-    let (least, most) = (wa.min(wb).min(wc), wa.max(wb).max(wc));
-    if least < 0.0 && most > 0.0 {
+    let negative = (wa < 0.0) | (wb < 0.0) | (wc < 0.0);
+    let positive = (wa > 0.0) | (wb > 0.0) | (wc > 0.0);
+    if negative & positive {
         return None;
     }
     let sum = wa + wb + wc;
@@ -58,7 +59,8 @@ pub fn intersect_triangle(origin: DVec3, direction: DVec3, corners: [DVec3; 3]) 
 }
 
 /// Where the line meets the plane of a triangle that another kernel says it hits: (t, u, v), the weights pulled into
-/// the triangle. `None` for triangles without area and for rays in the triangle's plane.
+/// the triangle; where [`intersect_triangle`] finds a hit, the same bits. `None` for triangles without area and for
+/// rays in the triangle's plane.
 pub fn plane_hit(origin: DVec3, direction: DVec3, corners: [DVec3; 3]) -> Option<(f64, f64, f64)> {
     let [a, b, c] = corners.map(|corner| corner - origin);
     let (wa, wb, wc) = (edge(b, c, direction), edge(c, a, direction), edge(a, b, direction));
@@ -68,12 +70,19 @@ pub fn plane_hit(origin: DVec3, direction: DVec3, corners: [DVec3; 3]) -> Option
     if sum == 0.0 || cosine == 0.0 {
         return None;
     }
-    let inside = [wa / sum, wb / sum, wc / sum].map(|w| w.clamp(0.0, 1.0));
+    let weights = [wa / sum, wb / sum, wc / sum];
+    if weights.iter().all(|&w| w >= 0.0) {
+        return Some((a.dot(normal) / cosine, weights[1], weights[2]));
+    }
+    let inside = weights.map(|w| w.clamp(0.0, 1.0));
     let total = inside[0] + inside[1] + inside[2];
     Some((a.dot(normal) / cosine, inside[1] / total, inside[2] / total))
 }
 
 impl TriangleBlock {
+    /// The most triangles in a block.
+    pub const LANES: usize = 8;
+
     /// Packs one to eight triangles, given as (index, corners). More than eight, or none, are a fault of the caller:
     /// the rest is left out.
     pub fn new(triangles: impl IntoIterator<Item = (u32, [[f32; 3]; 3])>) -> TriangleBlock {
@@ -108,56 +117,75 @@ impl TriangleBlock {
         (low, high)
     }
 
+    /// The coordinates, by corner, axis and lane; 0 in unused lanes.
+    #[inline(always)]
+    pub(crate) fn corner_lanes(&self) -> &[[[f32; 8]; 3]; 3] {
+        &self.corners
+    }
+
+    /// The index of the triangle in a lane below 8.
+    #[inline(always)]
+    pub(crate) fn lane_index(&self, lane: usize) -> u32 {
+        self.indices[lane]
+    }
+
     fn corners_of(&self, lane: usize) -> [DVec3; 3] {
         self.corners.map(|c| DVec3::new(c[0][lane].into(), c[1][lane].into(), c[2][lane].into()))
     }
 
-    /// A bit for every lane whose triangle may be hit: a superset of the hits, in f32.
+    /// The lowest bit of byte i tells whether the ray may hit the triangle of lane i and does not exclude it: a
+    /// superset of the hits, in f32.
     ///
-    /// The corners of a triangle that is hit lie within its longest edge of the ray, so the error of an edge function
-    /// is below 12 * 2^-24 * max|edge| * max|corner - origin|; the bound here is four times that. Values that are not
-    /// finite keep the lane.
-    #[allow(clippy::needless_range_loop)] // plain loops over lanes become vector instructions
+    /// With C = corner 0 - origin, e1 and e2 the edges from corner 0, and den = (e1 x e2).d, half of the edge functions
+    /// are U = (C x d).e2, V = -(C x d).e1 and W = den - U - V (Möller & Trumbore 1997 written as Plücker products).
+    /// Counting roundings, each of U, V and den is wrong by at most 7 * 2^-24 and W by at most 9 * 2^-24 times
+    /// max|d| (|C| (|e1| + |e2|) + |e1| |e2|), 1-norms all; `bound` is 16.7 * 2^-24 of it, which leaves room for its
+    /// own roundings and for those of the f64 decision. The smallest normal number covers products that underflow.
+    /// Values that are not finite keep the lane.
+    #[allow(clippy::needless_range_loop)] // a plain loop over lanes becomes vector instructions
     #[inline(always)]
-    fn candidates(&self, ray: &LocalRay) -> u32 {
+    fn candidates(&self, ray: &LocalRay) -> u64 {
         let o = ray.origin.to_array();
         let d = ray.direction.to_array();
-        let mut v = [[[0f32; 8]; 3]; 3];
-        for corner in 0..3 {
-            for axis in 0..3 {
-                for lane in 0..8 {
-                    v[corner][axis][lane] = self.corners[corner][axis][lane] - o[axis];
-                }
-            }
-        }
-        let mut keep = [0u32; 8];
+        let scale = 1e-6 * d[0].abs().max(d[1].abs()).max(d[2].abs());
+        let [p0, p1, p2] = &self.corners;
+        let [left, target] = ray.excluded_indices();
+        let mut keep = [false; 8];
         for lane in 0..8 {
-            let at = |corner: usize| [v[corner][0][lane], v[corner][1][lane], v[corner][2][lane]];
-            let (a, b, c) = (at(0), at(1), at(2));
-            let (wa, la) = edge_f32(b, c, d);
-            let (wb, lb) = edge_f32(c, a, d);
-            let (wc, lc) = edge_f32(a, b, d);
-            let reach = norm1(a).max(norm1(b)).max(norm1(c));
-            let bound = 3e-6 * la.max(lb).max(lc) * reach;
-            let (least, most) = (wa.min(wb).min(wc), wa.max(wb).max(wc));
+            let a = [p0[0][lane], p0[1][lane], p0[2][lane]];
+            let e1 = subtract([p1[0][lane], p1[1][lane], p1[2][lane]], a);
+            let e2 = subtract([p2[0][lane], p2[1][lane], p2[2][lane]], a);
+            let c = subtract(a, o);
+            let moment = cross(c, d);
+            let (u, v) = (dot(moment, e2), -dot(moment, e1));
+            let w = dot(cross(e1, e2), d) - u - v;
+            let (l1, l2) = (norm1(e1), norm1(e2));
+            let bound = scale * (norm1(c) * (l1 + l2) + l1 * l2) + f32::MIN_POSITIVE;
             // Written so that a NaN keeps the lane.
-            keep[lane] = u32::from(!((least < -bound) & (most > bound)));
+            let (below, above) = (-bound, bound);
+            let negative = (u < below) | (v < below) | (w < below);
+            let positive = (u > above) | (v > above) | (w > above);
+            let index = self.indices[lane];
+            let allowed = (index != left) & (index != target) & (index != u32::MAX);
+            keep[lane] = !(negative & positive) & allowed;
         }
-        let mut mask = 0;
-        for lane in 0..8 {
-            mask |= keep[lane] << lane;
-        }
-        mask
+        u64::from_le_bytes(keep.map(u8::from))
     }
 }
 
-/// The edge function in f32 and the 1-norm of the edge.
 #[inline(always)]
-fn edge_f32(p: [f32; 3], q: [f32; 3], d: [f32; 3]) -> (f32, f32) {
-    let e = [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
-    let s = [p[0] + q[0], p[1] + q[1], p[2] + q[2]];
-    let cross = [e[1] * s[2] - e[2] * s[1], e[2] * s[0] - e[0] * s[2], e[0] * s[1] - e[1] * s[0]];
-    (cross[0] * d[0] + cross[1] * d[1] + cross[2] * d[2], norm1(e))
+fn subtract(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+#[inline(always)]
+fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+#[inline(always)]
+fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 #[inline(always)]
@@ -166,16 +194,15 @@ fn norm1(v: [f32; 3]) -> f32 {
 }
 
 /// Makes `best` the hit with the smallest key (t, index) of it and the block's triangles, t in (0, `ray.t_max`].
+/// Whether that is another hit than before.
 #[inline(always)]
-pub fn closest_in_block(block: &TriangleBlock, ray: &LocalRay, best: &mut Option<TriangleHit>) {
+pub fn closest_in_block(block: &TriangleBlock, ray: &LocalRay, best: &mut Option<TriangleHit>) -> bool {
+    let mut found = false;
     let mut mask = block.candidates(ray);
     while mask != 0 {
-        let lane = mask.trailing_zeros() as usize;
+        let lane = mask.trailing_zeros() as usize / 8;
         mask &= mask - 1;
         let index = block.indices[lane];
-        if index == u32::MAX || ray.excludes(index) {
-            continue;
-        }
         if let Some((t, u, v)) = intersect_triangle(ray.origin64(), ray.direction64(), block.corners_of(lane))
         {
             let closer = match best {
@@ -184,9 +211,11 @@ pub fn closest_in_block(block: &TriangleBlock, ray: &LocalRay, best: &mut Option
             };
             if t > 0.0 && closer {
                 *best = Some(TriangleHit { t, index, u, v });
+                found = true;
             }
         }
     }
+    found
 }
 
 /// Whether a triangle of the block is hit with t in (0, `ray.t_max`).
@@ -194,12 +223,8 @@ pub fn closest_in_block(block: &TriangleBlock, ray: &LocalRay, best: &mut Option
 pub fn any_in_block(block: &TriangleBlock, ray: &LocalRay) -> bool {
     let mut mask = block.candidates(ray);
     while mask != 0 {
-        let lane = mask.trailing_zeros() as usize;
+        let lane = mask.trailing_zeros() as usize / 8;
         mask &= mask - 1;
-        let index = block.indices[lane];
-        if index == u32::MAX || ray.excludes(index) {
-            continue;
-        }
         if let Some((t, ..)) = intersect_triangle(ray.origin64(), ray.direction64(), block.corners_of(lane))
             && t > 0.0
             && t < ray.t_max

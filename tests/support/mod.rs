@@ -1,5 +1,10 @@
-//! What several topics need.
+//! What several topics share: random numbers, meshes, scenes, rays, statistics, and the comparison of two accelerators.
 
 pub(crate) mod build;
+pub(crate) mod compare;
 pub(crate) mod double_double;
+pub(crate) mod meshes;
+pub(crate) mod random;
+pub(crate) mod rays;
+pub(crate) mod scenes;
 pub(crate) mod stats;

@@ -1,0 +1,91 @@
+//! What the leaves hold: blocks of triangles at two precisions, and solids.
+
+use super::traverse::Leaf;
+use crate::accel::{distance, nearer};
+use crate::geometry::{
+    Geometry, Hit, LocalRay, PrimitiveId, Ray, TriangleBlock, TriangleHit, any_in_block, closest_in_block,
+};
+use crate::math::round_up;
+
+/// Blocks decided by the shared leaf.
+pub(super) struct ExactTriangles<'t> {
+    pub(super) blocks: &'t [TriangleBlock],
+    pub(super) ray: &'t LocalRay,
+    pub(super) best: Option<TriangleHit>,
+    limit: f32,
+}
+
+impl<'t> ExactTriangles<'t> {
+    pub(super) fn new(blocks: &'t [TriangleBlock], ray: &'t LocalRay) -> ExactTriangles<'t> {
+        ExactTriangles { blocks, ray, best: None, limit: ray.t_max32() }
+    }
+}
+
+impl Leaf for ExactTriangles<'_> {
+    #[inline(always)]
+    fn limit(&self) -> f32 {
+        self.limit
+    }
+
+    #[inline(always)]
+    fn closest(&mut self, leaf: u32) {
+        if closest_in_block(&self.blocks[leaf as usize], self.ray, &mut self.best)
+            && let Some(best) = &self.best
+        {
+            self.limit = round_up(best.t);
+        }
+    }
+
+    #[inline(always)]
+    fn address(&self, leaf: u32) -> *const u8 {
+        self.blocks.as_ptr().wrapping_add(leaf as usize).cast()
+    }
+
+    #[inline(always)]
+    fn any(&self, leaf: u32) -> bool {
+        any_in_block(&self.blocks[leaf as usize], self.ray)
+    }
+}
+
+/// One solid a leaf.
+pub(super) struct Solids<'t> {
+    pub(super) geometry: &'t Geometry,
+    /// Ids, by the index of the leaf.
+    pub(super) order: &'t [u32],
+    pub(super) ray: &'t Ray,
+    pub(super) local: &'t LocalRay,
+    pub(super) best: Option<Hit>,
+    /// For any-hit: the end of the ray in world units, and what does not count.
+    pub(super) t_max: f64,
+    pub(super) target: PrimitiveId,
+}
+
+impl Leaf for Solids<'_> {
+    #[inline(always)]
+    fn limit(&self) -> f32 {
+        // From the world's distance to the nodes' with all roundings of that way. The ray's own end comes first where
+        // that is shorter.
+        let frame = &self.geometry.solid_frame;
+        let end = self.best.map_or(self.local.t_max, |best| {
+            ((frame.widen(best.t) - self.local.shift) * frame.scale).min(self.local.t_max)
+        });
+        round_up(end)
+    }
+
+    #[inline(always)]
+    fn closest(&mut self, leaf: u32) {
+        let solid = self.order[leaf as usize];
+        let hit = self.geometry.intersect_solid(solid, self.ray, distance(&self.best));
+        self.best = nearer(self.best, hit);
+    }
+
+    #[inline(always)]
+    fn address(&self, leaf: u32) -> *const u8 {
+        self.order.as_ptr().wrapping_add(leaf as usize).cast()
+    }
+
+    #[inline(always)]
+    fn any(&self, leaf: u32) -> bool {
+        self.geometry.solid_occludes(self.order[leaf as usize], self.ray, self.t_max, self.target)
+    }
+}

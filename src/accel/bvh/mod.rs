@@ -1,0 +1,186 @@
+//! The native accelerator: a tree of boxes, eight children a node, in pure Rust.
+//!
+//! One tree holds the triangles, in blocks of up to eight a leaf; one holds the solids, one a leaf. Both share the
+//! builder ([`build`]), the node ([`node`]) and the traversal ([`traverse`]); only the leaves differ ([`leaf`],
+//! [`fast`]). The boxes and the node test are conservative, the shared leaf decides: so hits are those of
+//! [`super::brute_force::BruteForce`], bit by bit, in every instruction set.
+
+mod build;
+mod fast;
+mod leaf;
+mod node;
+mod simd;
+mod split;
+mod traverse;
+mod validate;
+
+use rayon::prelude::*;
+
+use self::build::Tree;
+use self::fast::FastTriangles;
+use self::leaf::{ExactTriangles, Solids};
+use self::node::{Node, NodeRay};
+use self::simd::Instructions;
+use self::split::PrimRef;
+use super::{BuildOptions, Isa, Kernel, Precision};
+use crate::error::Result;
+use crate::geometry::{Geometry, Hit, LocalRay, PrimitiveId, Ray, TriangleBlock, TriangleHit, plane_hit};
+use crate::math::{round_down, round_up};
+
+/// Trees over the triangles and the solids of a [`Geometry`].
+pub struct Bvh<'g> {
+    geometry: &'g Geometry,
+    triangle_nodes: Vec<Node>,
+    blocks: Vec<TriangleBlock>,
+    solid_nodes: Vec<Node>,
+    solid_order: Vec<u32>,
+    precision: Precision,
+    instructions: Instructions,
+}
+
+impl<'g> Bvh<'g> {
+    /// Builds the trees with rayon's current pool; the result does not depend on the number of threads.
+    /// [`crate::error::Error::Usage`] if the machine lacks the instruction set asked for.
+    pub fn build(geometry: &'g Geometry, options: &BuildOptions) -> Result<Bvh<'g>> {
+        let instructions = Instructions::choose(options.isa)?;
+        let triangles = triangle_tree(geometry);
+        let blocks = pack(geometry, &triangles);
+        let solids = solid_tree(geometry);
+        // One solid a leaf: the leaf's index is the place in the order.
+        let solid_order = solids.order;
+        Ok(Bvh {
+            geometry,
+            triangle_nodes: triangles.nodes,
+            blocks,
+            solid_nodes: solids.nodes,
+            solid_order,
+            precision: options.precision,
+            instructions,
+        })
+    }
+
+    /// The instruction set in use.
+    pub fn isa(&self) -> Isa {
+        self.instructions.isa()
+    }
+
+    /// Bytes of nodes and leaves, without the geometry's own arrays.
+    pub fn bytes(&self) -> usize {
+        size_of_val(&self.triangle_nodes[..])
+            + size_of_val(&self.blocks[..])
+            + size_of_val(&self.solid_nodes[..])
+            + size_of_val(&self.solid_order[..])
+    }
+}
+
+impl PartialEq for Bvh<'_> {
+    /// The same nodes and leaves in the same places.
+    fn eq(&self, other: &Self) -> bool {
+        self.triangle_nodes == other.triangle_nodes
+            && self.blocks == other.blocks
+            && self.solid_nodes == other.solid_nodes
+            && self.solid_order == other.solid_order
+    }
+}
+
+/// The triangles in blocks of up to eight, grouped by the surface area heuristic.
+pub fn triangle_blocks(geometry: &Geometry) -> Vec<TriangleBlock> {
+    pack(geometry, &triangle_tree(geometry))
+}
+
+fn pack(geometry: &Geometry, tree: &Tree) -> Vec<TriangleBlock> {
+    let block = |leaf: &std::ops::Range<u32>| {
+        let indices = &tree.order[leaf.start as usize..leaf.end as usize];
+        TriangleBlock::new(indices.iter().map(|&index| (index, geometry.corners32(index))))
+    };
+    tree.leaves.par_iter().map(block).collect()
+}
+
+fn triangle_tree(geometry: &Geometry) -> Tree {
+    let padding = triangle_padding(geometry);
+    let triangles = 0..geometry.triangles.len() as u32;
+    let prims = triangles.into_par_iter().map(|index| {
+        let (low, high) = triangle_bounds(geometry, index);
+        PrimRef::new(index, low.map(|x| round_down(x - padding)), high.map(|x| round_up(x + padding)))
+    });
+    build::build(prims.collect(), TriangleBlock::LANES)
+}
+
+fn triangle_bounds(geometry: &Geometry, index: u32) -> ([f64; 3], [f64; 3]) {
+    let [a, b, c] = geometry.corners(index);
+    (a.min(b).min(c).to_array(), a.max(b).max(c).to_array())
+}
+
+/// By how much a box of triangles is widened: 2^-22 of the farthest that a local ray starts.
+///
+/// The node test itself is conservative ([`NodeRay`]); this is for the leaf. Its edge functions are wrong by a few
+/// 2^-53 |edge| |corner - origin|, so it takes rays that pass a triangle's edge at some 2^-50 of the distance, and a
+/// corner whose angle is 2^-24 (the sharpest that f32 corners make, short of none) at 2^-26. The distance it finds is
+/// wrong by as much, over the cosine of the angle to the normal. The rest is for oblique rays at such slivers.
+fn triangle_padding(geometry: &Geometry) -> f64 {
+    geometry.mesh_frame.padding() / 8.0
+}
+
+fn solid_tree(geometry: &Geometry) -> Tree {
+    let prims = geometry.tree_solids.par_iter().map(|&solid| {
+        let (low, high) = geometry.solid_node_bounds(solid);
+        PrimRef::new(solid, low, high)
+    });
+    build::build(prims.collect(), 1)
+}
+
+impl Bvh<'_> {
+    fn solids<'t>(
+        &'t self,
+        ray: &'t Ray,
+        local: &'t LocalRay,
+        best: Option<Hit>,
+        t_max: f64,
+        target: PrimitiveId,
+    ) -> Solids<'t> {
+        Solids { geometry: self.geometry, order: &self.solid_order, ray, local, best, t_max, target }
+    }
+}
+
+impl Kernel for Bvh<'_> {
+    fn geometry(&self) -> &Geometry {
+        self.geometry
+    }
+
+    fn closest_triangle(&self, ray: &LocalRay) -> Option<TriangleHit> {
+        let node_ray = NodeRay::new(ray);
+        let (nodes, blocks) = (&self.triangle_nodes[..], &self.blocks[..]);
+        if self.precision != Precision::Fast {
+            let mut leaf = ExactTriangles::new(blocks, ray);
+            self.instructions.closest(nodes, &node_ray, &mut leaf);
+            return leaf.best;
+        }
+        let mut leaf = FastTriangles { blocks, ray, t: ray.t_max32(), index: None };
+        self.instructions.closest(nodes, &node_ray, &mut leaf);
+        let index = leaf.index?;
+        let (t, u, v) = plane_hit(ray.origin64(), ray.direction64(), self.geometry.corners(index))?;
+        Some(TriangleHit { t, index, u, v })
+    }
+
+    fn any_triangle(&self, ray: &LocalRay) -> bool {
+        let node_ray = NodeRay::new(ray);
+        let (nodes, blocks) = (&self.triangle_nodes[..], &self.blocks[..]);
+        if self.precision != Precision::Fast {
+            let leaf = ExactTriangles::new(blocks, ray);
+            return self.instructions.any(nodes, &node_ray, &leaf);
+        }
+        let leaf = FastTriangles { blocks, ray, t: ray.t_max32(), index: None };
+        self.instructions.any(nodes, &node_ray, &leaf)
+    }
+
+    fn closest_solid(&self, ray: &Ray, local: &LocalRay, best: Option<Hit>) -> Option<Hit> {
+        let mut leaf = self.solids(ray, local, best, f64::INFINITY, PrimitiveId::NONE);
+        self.instructions.closest(&self.solid_nodes, &NodeRay::new(local), &mut leaf);
+        leaf.best
+    }
+
+    fn any_solid(&self, ray: &Ray, local: &LocalRay, t_max: f64, target: PrimitiveId) -> bool {
+        let leaf = self.solids(ray, local, None, t_max, target);
+        self.instructions.any(&self.solid_nodes, &NodeRay::new(local), &leaf)
+    }
+}

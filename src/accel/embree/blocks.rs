@@ -1,0 +1,71 @@
+//! Exact: Embree finds the boxes around blocks of triangles, the shared leaf decides.
+
+use super::group::group;
+use super::scene::{BoundingBox, Device, Queries, Scene, UserGeometry, reach};
+use crate::error::Result;
+use crate::geometry::{Geometry, LocalRay, TriangleBlock, TriangleHit, any_in_block, closest_in_block};
+use crate::math::{round_down, round_up};
+
+/// A scene of user primitives, each a block of up to eight triangles.
+pub(super) struct Blocks {
+    scene: Scene<'static, BlockBoxes>,
+    blocks: Vec<TriangleBlock>,
+}
+
+impl Blocks {
+    pub(super) fn build(device: &Device, geometry: &Geometry) -> Result<Blocks> {
+        let boxes = BlockBoxes { blocks: group(geometry), padding: geometry.mesh_frame.padding() };
+        let scene = Scene::of_boxes(device, &boxes, boxes.blocks.len())?;
+        Ok(Blocks { scene, blocks: boxes.blocks })
+    }
+
+    pub(super) fn closest(&self, ray: &LocalRay) -> Option<TriangleHit> {
+        let mut query = Closest { blocks: &self.blocks, ray, best: None };
+        self.scene.intersect(ray, &mut query);
+        query.best
+    }
+
+    pub(super) fn any(&self, ray: &LocalRay) -> bool {
+        self.scene.occluded(ray, &mut Any { blocks: &self.blocks, ray })
+    }
+}
+
+struct BlockBoxes {
+    blocks: Vec<TriangleBlock>,
+    padding: f64,
+}
+
+struct Closest<'q> {
+    blocks: &'q [TriangleBlock],
+    ray: &'q LocalRay,
+    best: Option<TriangleHit>,
+}
+
+struct Any<'q> {
+    blocks: &'q [TriangleBlock],
+    ray: &'q LocalRay,
+}
+
+impl Queries for BlockBoxes {
+    type Closest<'q> = Closest<'q>;
+    type Any<'q> = Any<'q>;
+}
+
+impl UserGeometry for BlockBoxes {
+    fn bounds(&self, primitive: u32) -> Option<BoundingBox> {
+        let (low, high) = self.blocks.get(primitive as usize)?.bounds();
+        let low = low.map(|x| round_down(f64::from(x) - self.padding));
+        Some((low, high.map(|x| round_up(f64::from(x) + self.padding))))
+    }
+
+    #[inline(always)]
+    fn closest(query: &mut Closest<'_>, primitive: u32) -> Option<f32> {
+        closest_in_block(query.blocks.get(primitive as usize)?, query.ray, &mut query.best);
+        query.best.map(|best| reach(best.t))
+    }
+
+    #[inline(always)]
+    fn any(query: &mut Any<'_>, primitive: u32) -> bool {
+        query.blocks.get(primitive as usize).is_some_and(|block| any_in_block(block, query.ray))
+    }
+}

@@ -1,0 +1,261 @@
+//! What was typed: the options of clap, and the cases where it needs help to say what is wrong.
+
+use crate::accel::{Isa, Precision};
+use crate::error::Error;
+use crate::render::{AccelKind, MAX_SAMPLES, MAX_SIDE, MAX_THREADS, Settings};
+use crate::sampling::SamplerKind;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{CommandFactory, FromArgMatches, Parser};
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
+
+/// The names of the accelerators.
+pub(super) const ACCELS: [(&str, AccelKind); 2] =
+    [("embree", AccelKind::Embree), ("native", AccelKind::Native)];
+/// The names of the precisions.
+pub(super) const PRECISIONS: [(&str, Precision); 3] =
+    [("exact", Precision::Exact), ("robust", Precision::Robust), ("fast", Precision::Fast)];
+/// The names of the instruction sets.
+pub(super) const ISAS: [(&str, Isa); 3] = [("sse2", Isa::Sse2), ("avx2", Isa::Avx2), ("avx512", Isa::Avx512)];
+const SAMPLERS: [(&str, SamplerKind); 2] =
+    [("sobol", SamplerKind::Sobol), ("independent", SamplerKind::Independent)];
+const SWITCH: [(&str, bool); 2] = [("on", true), ("off", false)];
+
+/// The positional arguments of a render, as messages name them.
+const POSITIONALS: [&str; 6] = ["SCENE", "WIDTH", "HEIGHT", "SAMPLES", "BOUNCES", "IMAGE"];
+
+static VERSION: LazyLock<String> = LazyLock::new(|| {
+    let embree = option_env!("PATHTRACER_EMBREE_VERSION").unwrap_or("none");
+    format!("{} (Embree: {embree})", env!("CARGO_PKG_VERSION"))
+});
+
+/// Everything on the command line.
+#[derive(Debug, Parser)]
+#[command(
+    name = "pathtracer",
+    version = VERSION.as_str(),
+    about = "Renders a scene by path tracing",
+    after_help = EXIT_CODES,
+    override_usage = "pathtracer [OPTIONS] SCENE WIDTH HEIGHT SAMPLES BOUNCES IMAGE\n       \
+                      pathtracer check SCENE...",
+    args_conflicts_with_subcommands = true,
+    disable_help_subcommand = true
+)]
+pub(super) struct Arguments {
+    #[command(subcommand)]
+    pub(super) command: Option<Command>,
+    #[command(flatten)]
+    pub(super) render: RenderArguments,
+}
+
+const EXIT_CODES: &str = "A scene that is named like a command is reached by ./NAME.\n\
+    Exit codes: 0 done, 1 failure, 2 usage, 3 bad scene, 130 and 143 interrupted.";
+
+#[derive(Debug, clap::Subcommand)]
+pub(super) enum Command {
+    /// Say everything that is wrong with scenes, what they contain and what they need
+    #[command(override_usage = "pathtracer check SCENE...")]
+    Check {
+        /// Scene files
+        #[arg(value_name = "SCENE", required = true)]
+        scenes: Vec<PathBuf>,
+    },
+}
+
+/// A render as it was typed.
+#[derive(Debug, clap::Args)]
+pub(super) struct RenderArguments {
+    /// Scene file (YAML)
+    #[arg(value_name = "SCENE")]
+    scene: Option<PathBuf>,
+    /// Width of the picture in pixels
+    #[arg(value_name = "WIDTH", allow_negative_numbers = true, value_parser = whole(MAX_SIDE.into()))]
+    width: Option<u64>,
+    /// Height of the picture in pixels
+    #[arg(value_name = "HEIGHT", allow_negative_numbers = true, value_parser = whole(MAX_SIDE.into()))]
+    height: Option<u64>,
+    /// Samples per pixel
+    #[arg(value_name = "SAMPLES", allow_negative_numbers = true, value_parser = whole(MAX_SAMPLES))]
+    samples: Option<u64>,
+    /// Longest path in ray segments; 1 shows only lights and the sky
+    #[arg(value_name = "BOUNCES", allow_negative_numbers = true, value_parser = whole(u32::MAX.into()))]
+    bounces: Option<u64>,
+    /// Picture to write: .png (8-bit sRGB) or .exr (linear f32)
+    #[arg(value_name = "IMAGE")]
+    image: Option<PathBuf>,
+    /// Takes what is too much, so that it can be named.
+    #[arg(hide = true)]
+    extra: Vec<OsString>,
+
+    /// What finds hits [default: embree where compiled in]
+    #[arg(long, value_name = "NAME", value_parser = choice(&ACCELS))]
+    accel: Option<AccelKind>,
+    /// How hits of triangles are found [default: robust]
+    #[arg(long, value_name = "NAME", value_parser = choice(&PRECISIONS))]
+    precision: Option<Precision>,
+    /// Most instructions to use [default: the machine's best]
+    #[arg(long, value_name = "NAME", value_parser = choice(&ISAS))]
+    isa: Option<Isa>,
+    /// Threads [default: one a core]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole(MAX_THREADS as u64))]
+    threads: Option<u64>,
+    /// Side of the tiles in pixels; does not change the picture [default: by the picture's size]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole(MAX_SIDE.into()))]
+    tile: Option<u64>,
+    /// Seed of the random numbers
+    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 0)]
+    seed: u64,
+    /// Where random numbers come from [default: sobol]
+    #[arg(long, value_name = "NAME", value_parser = choice(&SAMPLERS))]
+    sampler: Option<SamplerKind>,
+    /// Whether lights are sampled [default: on]
+    #[arg(long, value_name = "on|off", value_parser = choice(&SWITCH))]
+    light_sampling: Option<bool>,
+    /// Brightness of a PNG in stops, -100 to 100
+    #[arg(long, value_name = "STOPS", allow_negative_numbers = true, default_value = "0", value_parser = stops)]
+    exposure: f64,
+    /// Print errors only
+    #[arg(long, short)]
+    quiet: bool,
+    /// Print events as JSON lines on stdout
+    #[arg(long)]
+    json: bool,
+}
+
+/// A render as it was meant.
+#[derive(Debug)]
+pub(super) struct Job {
+    pub(super) scene: PathBuf,
+    pub(super) image: PathBuf,
+    pub(super) settings: Settings,
+    /// In stops.
+    pub(super) exposure: f64,
+    pub(super) quiet: bool,
+    pub(super) json: bool,
+}
+
+impl Arguments {
+    /// Parses a command line, the program's name first.
+    pub(super) fn parse(arguments: &[OsString]) -> anyhow::Result<Arguments> {
+        let matches = Arguments::command().try_get_matches_from(arguments);
+        let parsed = matches.and_then(|matches| Arguments::from_arg_matches(&matches));
+        let is_wrong = match &parsed {
+            Ok(parsed) => parsed.command.is_none() && parsed.render.image.is_none(),
+            Err(error) => error.use_stderr(),
+        };
+        match misplaced_command(arguments).filter(|_| is_wrong) {
+            Some(message) => Err(Error::Usage(message).into()),
+            None => Ok(parsed?),
+        }
+    }
+}
+
+impl RenderArguments {
+    /// Either all positional arguments are there or an error says which are not.
+    pub(super) fn resolve(self) -> anyhow::Result<Job> {
+        if let Some(extra) = self.extra.first() {
+            let message = format!("unexpected argument '{}' after IMAGE", extra.to_string_lossy());
+            return Err(usage(&message).into());
+        }
+        let given = self.given();
+        let (Some(scene), Some(width), Some(height), Some(samples), Some(bounces), Some(image)) =
+            (self.scene, self.width, self.height, self.samples, self.bounces, self.image)
+        else {
+            let missing: Vec<&str> = POSITIONALS.into_iter().skip(given).collect();
+            let message = match given {
+                0 => "nothing to render".to_owned(),
+                _ => format!("missing {}", missing.join(" ")),
+            };
+            return Err(usage(&message).into());
+        };
+        let defaults =
+            Settings::new(u32::try_from(width)?, u32::try_from(height)?, samples, u32::try_from(bounces)?);
+        let settings = Settings {
+            accel: self.accel.unwrap_or(defaults.accel),
+            precision: self.precision.unwrap_or(defaults.precision),
+            isa: self.isa,
+            threads: self.threads.map(usize::try_from).transpose()?,
+            tile: self.tile.map(u32::try_from).transpose()?,
+            seed: self.seed,
+            sampler: self.sampler.unwrap_or(defaults.sampler),
+            light_sampling: self.light_sampling.unwrap_or(defaults.light_sampling),
+            ..defaults
+        };
+        Ok(Job { scene, image, settings, exposure: self.exposure, quiet: self.quiet, json: self.json })
+    }
+
+    /// How many positional arguments there are.
+    fn given(&self) -> usize {
+        let numbers = [self.width, self.height, self.samples, self.bounces];
+        usize::from(self.scene.is_some())
+            + numbers.iter().flatten().count()
+            + usize::from(self.image.is_some())
+    }
+}
+
+/// The name of a value in one of the tables above.
+pub(super) fn name_of<T: PartialEq>(table: &[(&'static str, T)], value: &T) -> Option<&'static str> {
+    table.iter().find(|(_, other)| other == value).map(|&(name, _)| name)
+}
+
+fn usage(message: &str) -> Error {
+    Error::Usage(format!(
+        "{message}\n\nUsage: pathtracer [OPTIONS] {}\n       pathtracer check SCENE...\n\nFor more information, try '--help'.",
+        POSITIONALS.join(" ")
+    ))
+}
+
+/// What to say if the first word stands where a scene would, is no file and looks like a command.
+fn misplaced_command(arguments: &[OsString]) -> Option<String> {
+    let words = arguments.iter().enumerate().skip(1).filter_map(|(i, word)| Some((i, word.to_str()?)));
+    let (place, word) = words.into_iter().find(|(_, word)| !word.starts_with('-'))?;
+    if Path::new(word).exists() {
+        return None;
+    }
+    let commands = Arguments::command();
+    let mut names = commands.get_subcommands().map(clap::Command::get_name);
+    let close = names.find(|name| edit_distance(word, name) <= 2)?;
+    match (close == word, place) {
+        (true, 1) => None,
+        (true, _) => Some(format!("the command '{close}' must come first")),
+        (false, _) => Some(format!("there is no scene file '{word}'; did you mean the command '{close}'?")),
+    }
+}
+
+/// Levenshtein's distance in bytes.
+fn edit_distance(a: &str, b: &str) -> usize {
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, x) in a.bytes().enumerate() {
+        let mut diagonal = std::mem::replace(&mut row[0], i + 1);
+        for (j, y) in b.bytes().enumerate() {
+            let replaced = diagonal + usize::from(x != y);
+            diagonal = row[j + 1];
+            row[j + 1] = replaced.min(row[j] + 1).min(diagonal + 1);
+        }
+    }
+    row[b.len()]
+}
+
+/// Parses a whole number from 1 to `most`.
+fn whole(most: u64) -> impl Fn(&str) -> Result<u64, String> + Clone {
+    move |text| {
+        let number = text.parse().ok().filter(|number| (1..=most).contains(number));
+        number.ok_or_else(|| format!("expected a whole number from 1 to {most}"))
+    }
+}
+
+fn stops(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|number: &f64| number.abs() <= 100.0);
+    number.ok_or_else(|| "expected a number from -100 to 100".to_owned())
+}
+
+/// Parses one of the names in a table.
+fn choice<T: Copy + Send + Sync + 'static>(
+    table: &'static [(&'static str, T)],
+) -> impl TypedValueParser<Value = T> {
+    PossibleValuesParser::new(table.iter().map(|&(name, _)| name)).try_map(move |name| {
+        let found = table.iter().find(|&&(known, _)| known == name);
+        found.map(|&(_, value)| value).ok_or("unknown name")
+    })
+}

@@ -1,0 +1,207 @@
+//! `--json`: one JSON object a line on stdout.
+
+use super::arguments::{ACCELS, ISAS, Job, PRECISIONS, name_of};
+use crate::error::{Diagnostic, Error, Severity};
+use crate::render::{Progress, Rendered};
+use crate::world::Requires;
+use serde::Serialize;
+use std::io::{self, Write};
+use std::time::Duration;
+
+/// A line of output.
+#[derive(Debug, Serialize)]
+#[serde(tag = "event", rename_all = "snake_case")]
+pub(super) enum Event<'e> {
+    /// Rendering begins.
+    Start {
+        #[serde(flatten)]
+        job: JobRecord,
+        requires: &'e Requires,
+    },
+    /// Rendering goes on.
+    Progress { samples: u64, total: u64, rays: u64, seconds: f64, eta_seconds: f64, samples_per_second: f64 },
+    /// The picture is written.
+    Done(Summary<'e>),
+    /// The picture is written, with fewer samples than asked for.
+    Interrupted(Summary<'e>),
+    /// The program ends without a picture.
+    Error { code: u8, message: String, diagnostics: Vec<DiagnosticRecord> },
+}
+
+/// The settings of a render. `isa` is null for the machine's best.
+#[derive(Debug, Serialize)]
+pub(super) struct JobRecord {
+    version: &'static str,
+    scene: String,
+    image: String,
+    width: u32,
+    height: u32,
+    samples: u64,
+    bounces: u32,
+    accel: Option<&'static str>,
+    precision: Option<&'static str>,
+    isa: Option<&'static str>,
+    threads: usize,
+    tile: u32,
+    chunk: u32,
+    seed: u64,
+    sampler: &'static str,
+    light_sampling: bool,
+    exposure: f64,
+}
+
+/// What a render was, took and made.
+#[derive(Debug, Serialize)]
+pub(super) struct Summary<'e> {
+    #[serde(flatten)]
+    job: JobRecord,
+    requires: &'e Requires,
+    /// Samples per pixel in the picture.
+    samples_taken: u64,
+    dropped_samples: u64,
+    rays: u64,
+    #[serde(flatten)]
+    seconds: Seconds,
+    samples_per_second: f64,
+    rays_per_second: f64,
+}
+
+/// What the parts of a run took.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub(super) struct Seconds {
+    /// To read the scene and its meshes.
+    #[serde(rename = "load_seconds")]
+    pub(super) load: f64,
+    /// To compile the world and build the accelerator.
+    #[serde(rename = "build_seconds")]
+    pub(super) build: f64,
+    /// From the first ray to the last.
+    #[serde(rename = "render_seconds")]
+    pub(super) render: f64,
+    /// To write the picture.
+    #[serde(rename = "write_seconds")]
+    pub(super) write: f64,
+}
+
+/// A mistake in an input file.
+#[derive(Debug, Serialize)]
+pub(super) struct DiagnosticRecord {
+    severity: &'static str,
+    message: String,
+    file: Option<String>,
+    line: Option<usize>,
+    column: Option<usize>,
+    help: Option<String>,
+}
+
+impl JobRecord {
+    pub(super) fn new(job: &Job) -> JobRecord {
+        let settings = &job.settings;
+        JobRecord {
+            version: env!("CARGO_PKG_VERSION"),
+            scene: job.scene.to_string_lossy().into_owned(),
+            image: job.image.to_string_lossy().into_owned(),
+            width: settings.width,
+            height: settings.height,
+            samples: settings.samples,
+            bounces: settings.bounces,
+            accel: name_of(&ACCELS, &settings.accel),
+            precision: name_of(&PRECISIONS, &settings.precision),
+            isa: settings.isa.and_then(|isa| name_of(&ISAS, &isa)),
+            threads: settings.thread_count(),
+            tile: settings.tile_side(),
+            chunk: settings.chunk,
+            seed: settings.seed,
+            sampler: settings.sampler.name(),
+            light_sampling: settings.light_sampling,
+            exposure: job.exposure,
+        }
+    }
+}
+
+impl<'e> Summary<'e> {
+    pub(super) fn new(
+        job: &Job,
+        requires: &'e Requires,
+        rendered: &Rendered,
+        seconds: Seconds,
+    ) -> Summary<'e> {
+        let Rendered { film, counters, .. } = rendered;
+        let pixels = f64::from(film.width()) * f64::from(film.height());
+        Summary {
+            job: JobRecord::new(job),
+            requires,
+            samples_taken: film.samples(),
+            dropped_samples: counters.dropped,
+            rays: counters.rays,
+            seconds,
+            samples_per_second: per_second(pixels * film.samples() as f64, seconds.render),
+            rays_per_second: per_second(counters.rays as f64, seconds.render),
+        }
+    }
+}
+
+impl Event<'_> {
+    pub(super) fn progress(progress: &Progress, elapsed: Duration) -> Event<'static> {
+        let seconds = elapsed.as_secs_f64();
+        Event::Progress {
+            samples: progress.samples,
+            total: progress.total,
+            rays: progress.rays,
+            seconds,
+            eta_seconds: eta(progress, elapsed).as_secs_f64(),
+            samples_per_second: per_second(progress.samples as f64, seconds),
+        }
+    }
+
+    pub(super) fn error(code: u8, error: &anyhow::Error) -> Event<'static> {
+        match error.downcast_ref::<Error>() {
+            Some(Error::Scene(all)) => {
+                let diagnostics = all.iter().map(DiagnosticRecord::new).collect();
+                Event::Error { code, message: "the scene has mistakes".into(), diagnostics }
+            }
+            _ => {
+                let text = error.to_string();
+                let message = text.strip_prefix("error: ").unwrap_or(&text).trim_end().to_owned();
+                Event::Error { code, message, diagnostics: Vec::new() }
+            }
+        }
+    }
+}
+
+impl DiagnosticRecord {
+    fn new(diagnostic: &Diagnostic) -> DiagnosticRecord {
+        let location = diagnostic.location.as_ref();
+        DiagnosticRecord {
+            severity: match diagnostic.severity {
+                Severity::Error => "error",
+                Severity::Warning => "warning",
+            },
+            message: diagnostic.message.clone(),
+            file: location.map(|location| location.file.to_string_lossy().into_owned()),
+            line: location.map(|location| location.line),
+            column: location.map(|location| location.column),
+            help: diagnostic.help.clone(),
+        }
+    }
+}
+
+/// Prints an event. A reader that has gone away does not stop the render.
+pub(super) fn emit(event: &Event<'_>) {
+    if let Ok(line) = serde_json::to_string(event) {
+        let mut stdout = io::stdout().lock();
+        let _ = writeln!(stdout, "{line}").and_then(|()| stdout.flush());
+    }
+}
+
+/// The time that is left if it goes on as it did so far.
+pub(super) fn eta(progress: &Progress, elapsed: Duration) -> Duration {
+    let left = progress.total.saturating_sub(progress.samples) as f64;
+    let factor = left / progress.samples.max(1) as f64;
+    Duration::try_from_secs_f64(elapsed.as_secs_f64() * factor).unwrap_or(Duration::MAX)
+}
+
+/// A rate; zero where no time has passed.
+pub(super) fn per_second(count: f64, seconds: f64) -> f64 {
+    if seconds > 0.0 { count / seconds } else { 0.0 }
+}

@@ -1,0 +1,55 @@
+//! Signals to a render that would take for ever.
+#![cfg(unix)]
+
+use super::Folder;
+use serde_json::Value;
+use std::io::{BufRead, BufReader, Read};
+use std::process::{Child, Command, Stdio};
+
+const ENDLESS: &str = "ball.yaml 8 6 4294967296 3 a.png --json";
+
+/// Sends `signal` once the render has taken three chunks; the exit code and the last event.
+fn interrupt(folder: &Folder, signal: &str) -> (Option<i32>, Value) {
+    let mut command = folder.command(ENDLESS);
+    let mut child = command.stdout(Stdio::piped()).stderr(Stdio::null()).spawn().expect("a child");
+    let mut reader = BufReader::new(child.stdout.take().expect("a pipe"));
+    let mut line = String::new();
+    while reader.read_line(&mut line).expect("a line") > 0 {
+        let event: Value = serde_json::from_str(&line).expect("JSON");
+        if event["event"] == "progress" && event["samples"].as_u64() > Some(8 * 6 * 16 * 3) {
+            break;
+        }
+        line.clear();
+    }
+    send(&child, signal);
+    let mut rest = String::new();
+    reader.read_to_string(&mut rest).expect("the rest");
+    let last = rest.lines().last().expect("a last event");
+    (child.wait().expect("an end").code(), serde_json::from_str(last).expect("JSON"))
+}
+
+fn send(child: &Child, signal: &str) {
+    let sent = Command::new("kill").args(["-s", signal, &child.id().to_string()]).status();
+    assert!(sent.expect("the program kill").success());
+}
+
+#[test]
+fn ctrl_c_writes_the_picture_so_far() {
+    let folder = Folder::new();
+    let (code, last) = interrupt(&folder, "INT");
+    assert_eq!(code, Some(130));
+    assert_eq!(last["event"], "interrupted");
+    let samples = last["samples_taken"].as_u64().expect("a number");
+    assert!(samples >= 2 * 16 && samples.is_multiple_of(16), "{samples}");
+    assert_eq!(image::open(folder.path("a.png")).expect("a picture").width(), 8);
+    assert_eq!(folder.names(), ["a.png", "ball.yaml"]);
+}
+
+#[test]
+fn a_request_to_terminate_writes_the_picture_so_far() {
+    let folder = Folder::new();
+    let (code, last) = interrupt(&folder, "TERM");
+    assert_eq!(code, Some(143));
+    assert_eq!(last["event"], "interrupted");
+    assert!(folder.has("a.png"));
+}
