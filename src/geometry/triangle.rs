@@ -8,7 +8,7 @@ use crate::math::DVec3;
 
 /// Up to eight triangles, structure of arrays, in the f32 coordinates of their [`super::LocalFrame`].
 #[derive(Clone, Debug, PartialEq)]
-#[repr(C, align(32))]
+#[repr(C, align(64))]
 pub struct TriangleBlock {
     /// Corner, axis, lane.
     corners: [[[f32; 8]; 3]; 3],
@@ -129,7 +129,9 @@ impl TriangleBlock {
         self.indices[lane]
     }
 
-    fn corners_of(&self, lane: usize) -> [DVec3; 3] {
+    /// The corners of the triangle in a lane below 8, exactly.
+    #[inline(always)]
+    pub(crate) fn corners_of(&self, lane: usize) -> [DVec3; 3] {
         self.corners.map(|c| DVec3::new(c[0][lane].into(), c[1][lane].into(), c[2][lane].into()))
     }
 

@@ -1,16 +1,37 @@
 //! The f32 leaf of [`crate::accel::Precision::Fast`]: eight triangles at once, no second look in f64.
 
 use super::traverse::Leaf;
-use crate::geometry::{LocalRay, TriangleBlock};
+use crate::geometry::{LocalRay, TriangleBlock, TriangleHit, plane_hit};
 
 /// Blocks decided in f32. Rays may slip through edges; neighbours do not agree on them.
 pub(super) struct FastTriangles<'t> {
     pub(super) blocks: &'t [TriangleBlock],
     pub(super) ray: &'t LocalRay,
     /// Distance of the best hit, or the end of the ray.
-    pub(super) t: f32,
-    /// Triangle of the best hit.
-    pub(super) index: Option<u32>,
+    t: f32,
+    best: Option<Winner>,
+}
+
+/// Where the best hit is: fetching its corners by index would touch memory that the traversal has not.
+#[derive(Clone, Copy)]
+struct Winner {
+    index: u32,
+    leaf: u32,
+    lane: usize,
+}
+
+impl<'t> FastTriangles<'t> {
+    pub(super) fn new(blocks: &'t [TriangleBlock], ray: &'t LocalRay) -> FastTriangles<'t> {
+        FastTriangles { blocks, ray, t: ray.t_max32(), best: None }
+    }
+
+    /// The best hit, its t, u and v computed in f64.
+    pub(super) fn hit(&self) -> Option<TriangleHit> {
+        let Winner { index, leaf, lane } = self.best?;
+        let corners = self.blocks[leaf as usize].corners_of(lane);
+        let (t, u, v) = plane_hit(self.ray.origin64(), self.ray.direction64(), corners)?;
+        Some(TriangleHit { t, index, u, v })
+    }
 }
 
 impl Leaf for FastTriangles<'_> {
@@ -27,9 +48,9 @@ impl Leaf for FastTriangles<'_> {
             let lane = mask.trailing_zeros() as usize / 8;
             mask &= mask - 1;
             let (t, index) = (distances[lane], block.lane_index(lane));
-            let tie = t == self.t && self.index.is_none_or(|best| index < best);
+            let tie = t == self.t && self.best.is_none_or(|best| index < best.index);
             if (t < self.t || tie) && !self.ray.excludes(index) {
-                (self.t, self.index) = (t, Some(index));
+                (self.t, self.best) = (t, Some(Winner { index, leaf, lane }));
             }
         }
     }

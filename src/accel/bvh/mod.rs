@@ -24,7 +24,7 @@ use self::simd::Instructions;
 use self::split::PrimRef;
 use super::{BuildOptions, Isa, Kernel, Precision};
 use crate::error::Result;
-use crate::geometry::{Geometry, Hit, LocalRay, PrimitiveId, Ray, TriangleBlock, TriangleHit, plane_hit};
+use crate::geometry::{Geometry, Hit, LocalRay, PrimitiveId, Ray, TriangleBlock, TriangleHit};
 use crate::math::{round_down, round_up};
 
 /// Trees over the triangles and the solids of a [`Geometry`].
@@ -155,11 +155,9 @@ impl Kernel for Bvh<'_> {
             self.instructions.closest(nodes, &node_ray, &mut leaf);
             return leaf.best;
         }
-        let mut leaf = FastTriangles { blocks, ray, t: ray.t_max32(), index: None };
+        let mut leaf = FastTriangles::new(blocks, ray);
         self.instructions.closest(nodes, &node_ray, &mut leaf);
-        let index = leaf.index?;
-        let (t, u, v) = plane_hit(ray.origin64(), ray.direction64(), self.geometry.corners(index))?;
-        Some(TriangleHit { t, index, u, v })
+        leaf.hit()
     }
 
     fn any_triangle(&self, ray: &LocalRay) -> bool {
@@ -169,7 +167,7 @@ impl Kernel for Bvh<'_> {
             let leaf = ExactTriangles::new(blocks, ray);
             return self.instructions.any(nodes, &node_ray, &leaf);
         }
-        let leaf = FastTriangles { blocks, ray, t: ray.t_max32(), index: None };
+        let leaf = FastTriangles::new(blocks, ray);
         self.instructions.any(nodes, &node_ray, &leaf)
     }
 

@@ -99,8 +99,8 @@ pub(super) struct NodeRay {
     /// Reciprocal direction for far planes: no smaller than the exact one, infinite for 0. Then a far plane through the
     /// origin gives 0 * inf = NaN, which the test must ignore.
     pub(super) far_reciprocal: [f32; 3],
-    /// Which plane of a box is met first on each axis: 0 the lower one, 1 the upper one.
-    pub(super) upper_first: [bool; 3],
+    /// Place in [`Node::planes`] of the plane that is met first on each axis: the lower or the upper one.
+    pub(super) first_planes: [usize; 3],
 }
 
 impl NodeRay {
@@ -111,7 +111,7 @@ impl NodeRay {
             origin: ray.origin.to_array(),
             near_reciprocal: direction.map(near_reciprocal),
             far_reciprocal: direction.map(far_reciprocal),
-            upper_first: direction.map(f32::is_sign_negative),
+            first_planes: [0, 1, 2].map(|axis| axis + 3 * usize::from(direction[axis].is_sign_negative())),
         }
     }
 }

@@ -146,10 +146,11 @@ pub(super) trait Lanes: Copy {
 /// Where the planes that are met first and last on an axis are in [`Node::planes`].
 #[inline(always)]
 fn planes(node: &Node, ray: &NodeRay, axis: usize) -> (*const f32, *const f32) {
-    let upper_first = 3 * usize::from(ray.upper_first[axis]);
-    let first = node.planes.as_ptr().cast::<f32>();
-    // In bounds: axis < 3, so both are below 6 * 8.
-    (first.wrapping_add(8 * (axis + upper_first)), first.wrapping_add(8 * (axis + 3 - upper_first)))
+    let first = ray.first_planes[axis];
+    // The other plane of the axis: both places are below six, and their sum is 2 * axis + 3.
+    let last = 2 * axis + 3 - first;
+    let start = node.planes.as_ptr();
+    (start.wrapping_add(first).cast(), start.wrapping_add(last).cast())
 }
 
 /// Two registers of four lanes.

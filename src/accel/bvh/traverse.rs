@@ -90,7 +90,7 @@ fn fetch_all<L: Leaf>(nodes: &[Node], node: &Node, leaf: &L, mut mask: u32) {
         // Both addresses, so that no branch has to be guessed.
         let inner = nodes.as_ptr().wrapping_add(child.index() as usize).cast::<u8>();
         let outer = leaf.address(child.index());
-        prefetch::<4>(if child.is_leaf() { outer } else { inner });
+        prefetch::<5>(if child.is_leaf() { outer } else { inner });
     }
 }
 
