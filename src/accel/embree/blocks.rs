@@ -1,7 +1,7 @@
 //! Exact: Embree finds the boxes around blocks of triangles, the shared leaf decides.
 
-use super::group::group;
 use super::scene::{BoundingBox, Device, Queries, Scene, UserGeometry, reach};
+use crate::accel::bvh::triangle_blocks;
 use crate::error::Result;
 use crate::geometry::{Geometry, LocalRay, TriangleBlock, TriangleHit, any_in_block, closest_in_block};
 use crate::math::{round_down, round_up};
@@ -14,7 +14,7 @@ pub(super) struct Blocks {
 
 impl Blocks {
     pub(super) fn build(device: &Device, geometry: &Geometry) -> Result<Blocks> {
-        let boxes = BlockBoxes { blocks: group(geometry), padding: geometry.mesh_frame.padding() };
+        let boxes = BlockBoxes { blocks: triangle_blocks(geometry), padding: geometry.mesh_frame.padding() };
         let scene = Scene::of_boxes(device, &boxes, boxes.blocks.len())?;
         Ok(Blocks { scene, blocks: boxes.blocks })
     }

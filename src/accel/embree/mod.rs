@@ -15,7 +15,6 @@
 //! [`LocalFrame::padding`]: crate::geometry::LocalFrame::padding
 
 mod blocks;
-mod group;
 mod native;
 mod scene;
 mod solids;
@@ -46,6 +45,7 @@ impl<'g> Embree<'g> {
     /// Builds the scenes that `geometry` needs, on as many threads as the current rayon pool has.
     ///
     /// # Errors
+    /// [`Error::Usage`](crate::error::Error::Usage) if the machine lacks the instruction set asked for,
     /// [`Error::Unavailable`](crate::error::Error::Unavailable) if the machine lacks what Embree needs,
     /// [`Error::Accelerator`](crate::error::Error::Accelerator) with Embree's words for every other failure, such as
     /// too little memory.

@@ -62,22 +62,23 @@ pub(super) struct Device {
 }
 
 impl Device {
-    /// Starts Embree with instructions up to `isa`.
+    /// Starts Embree with the instructions of `isa`.
     pub(super) fn new(isa: Option<Isa>) -> Result<Device> {
         let threads = rayon::current_num_threads();
-        let limit = match isa {
+        let instructions = match isa {
             None => "",
-            Some(Isa::Sse2) => ",max_isa=sse2",
-            Some(Isa::Avx2) => ",max_isa=avx2",
-            Some(Isa::Avx512) => ",max_isa=avx512",
+            Some(Isa::Sse2) => ",isa=sse2",
+            Some(Isa::Avx2) => ",isa=avx2",
+            Some(Isa::Avx512) => ",isa=avx512",
         };
-        let config = CString::new(format!("threads={threads}{limit}")).unwrap_or_default();
+        let config = CString::new(format!("threads={threads}{instructions}")).unwrap_or_default();
         // SAFETY: a C string that outlives the call.
         let raw = unsafe { rtcNewDevice(config.as_ptr()) };
         if raw.is_null() {
             // SAFETY: without a device this asks why the last rtcNewDevice of this thread failed.
             let code = unsafe { rtcGetDeviceError(ptr::null_mut()) };
-            return Err(Error::Unavailable(format!("Embree does not start: {}", error_text(code))));
+            let message = format!("Embree does not start: {}", error_text(code));
+            return Err(if isa.is_some() { Error::Usage(message) } else { Error::Unavailable(message) });
         }
         let device = Device { raw, error: Box::default(), avx2: allows_avx2(isa) };
         let slot = (&raw const *device.error).cast_mut().cast();
@@ -131,7 +132,7 @@ impl Drop for Device {
 /// Whether this machine has AVX2 and `isa` lets it be used.
 fn allows_avx2(isa: Option<Isa>) -> bool {
     #[cfg(target_arch = "x86_64")]
-    return isa.is_none_or(|isa| isa >= Isa::Avx2) && is_x86_feature_detected!("avx2");
+    return isa != Some(Isa::Sse2) && is_x86_feature_detected!("avx2");
     #[cfg(not(target_arch = "x86_64"))]
     return false;
 }
