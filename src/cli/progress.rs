@@ -67,7 +67,7 @@ impl Watch for Reporter {
 
 fn new_bar() -> ProgressBar {
     let bar = ProgressBar::new(1);
-    if let Ok(style) = ProgressStyle::with_template("[{bar:30}] {msg}") {
+    if let Ok(style) = ProgressStyle::with_template("{msg} [{wide_bar}]") {
         bar.set_style(style.progress_chars("=> "));
     }
     bar
