@@ -29,7 +29,7 @@ impl<'t> FastTriangles<'t> {
     pub(super) fn hit(&self) -> Option<TriangleHit> {
         let Winner { index, leaf, lane } = self.best?;
         let corners = self.blocks[leaf as usize].corners_of(lane);
-        let (t, u, v) = plane_hit(self.ray.origin64(), self.ray.direction64(), corners)?;
+        let (t, u, v) = plane_hit(self.ray, corners)?;
         Some(TriangleHit { t, index, u, v })
     }
 }
