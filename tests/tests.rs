@@ -32,6 +32,9 @@ mod lights;
 /// Light transport against closed forms: furnaces, lights of every shape, the sky.
 mod transport;
 
+/// Numerical stability: sizes, places, gaps, ties and rays at the extremes.
+mod extremes;
+
 /// The sums: the tree of chunks.
 mod film;
 /// Chunks, tiles, threads, stopping.

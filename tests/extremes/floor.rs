@@ -55,7 +55,8 @@ fn distances_to_a_tilted_big_floor_are_exact_to_f32() {
     for _ in 0..20 {
         let u = random.direction();
         let v = u.cross(random.direction()).normalize();
-        let positions = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| (u * x + v * y) * HALF);
+        let positions =
+            [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| (u * x + v * y) * HALF);
         let mesh =
             MeshPart { object: 0, positions: positions.to_vec(), triangles: vec![[0, 1, 2], [0, 2, 3]] };
         let geometry = Geometry::new(Vec::new(), &[mesh]);
@@ -85,8 +86,7 @@ fn plane_distance(geometry: &Geometry, triangle: u32, ray: &Ray) -> f64 {
     let sub = |p: [DoubleDouble; 3], q: [DoubleDouble; 3]| [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
     let dot = |p: [DoubleDouble; 3], q: [DoubleDouble; 3]| p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
     let (e, f) = (sub(b, a), sub(c, a));
-    let normal =
-        [e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]];
+    let normal = [e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]];
     // Powers of two scale exactly.
     let origin = sub(dd(ray.origin * frame.scale), dd(frame.pivot * frame.scale));
     (dot(sub(a, origin), normal) / dot(dd(ray.direction), normal)).to_f64() / frame.scale

@@ -66,7 +66,10 @@ fn distances_positions_and_normals_are_those_of_double_double() {
                     assert!(error < 1e-6 * (1.0 + x), "R {radius}: z is wrong by {error:e} at {x}");
                     // Bands would show as normals that stand still or go back.
                     let turned = point.normal.truncate().length();
-                    assert!(turned >= last.truncate().length() && point.normal.z <= last.z, "R {radius} at {x}");
+                    assert!(
+                        turned >= last.truncate().length() && point.normal.z <= last.z,
+                        "R {radius} at {x}"
+                    );
                     last = point.normal;
                 }
             }
@@ -129,7 +132,9 @@ fn a_mesh_on_a_ball_of_radius_1e7_is_hit_as_without_it() {
     let alone = Geometry::new(Vec::new(), std::slice::from_ref(&mesh));
     let both = Geometry::new(solids, &[mesh]);
     let mut random = Random::new(92);
-    for (one, other) in accelerators(&alone, Precision::Exact).iter().zip(accelerators(&both, Precision::Exact)) {
+    for (one, other) in
+        accelerators(&alone, Precision::Exact).iter().zip(accelerators(&both, Precision::Exact))
+    {
         for _ in 0..100_000 {
             let origin = random.direction() * random.between(3.0, 30.0);
             let origin = DVec3::new(origin.x, origin.y, origin.z.abs());

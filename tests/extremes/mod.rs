@@ -7,9 +7,9 @@ mod floor;
 mod gaps;
 mod geometry;
 mod ground;
-mod guards;
 mod lights;
 mod odd_rays;
+mod refraction;
 mod reintersection;
 mod room;
 mod scale;
@@ -25,7 +25,7 @@ use pathtracer::geometry::{Geometry, Hit, PrimitiveId, Ray};
 use pathtracer::integrator::{Counters, PathTracer};
 use pathtracer::math::Rgb;
 use pathtracer::render::{AccelKind, Progress, Rendered, Settings, Watch, render};
-use pathtracer::sampling::Independent;
+use pathtracer::sampling::{Independent, Sampler};
 use pathtracer::scene::desc::SceneDesc;
 use pathtracer::world::World;
 
@@ -50,7 +50,10 @@ fn accelerators(geometry: &Geometry, precision: Precision) -> Vec<Named<'_>> {
     let options = BuildOptions { precision, isa: None };
     let named = |name: &str, accelerator| Named { name: format!("{name} {precision:?}"), accelerator };
     vec![
-        named("native", Box::new(Bvh::build(geometry, &options).expect("a tree")) as Box<dyn Accelerator + '_>),
+        named(
+            "native",
+            Box::new(Bvh::build(geometry, &options).expect("a tree")) as Box<dyn Accelerator + '_>,
+        ),
         #[cfg(feature = "embree")]
         named("Embree", Box::new(Embree::build(geometry, &options).expect("a tree"))),
     ]
@@ -63,7 +66,11 @@ fn watertight_accelerators(geometry: &Geometry) -> Vec<Named<'_>> {
 
 /// The accelerators that renders can choose.
 fn kinds() -> Vec<AccelKind> {
-    if cfg!(feature = "embree") { vec![AccelKind::Native, AccelKind::Embree] } else { vec![AccelKind::Native] }
+    if cfg!(feature = "embree") {
+        vec![AccelKind::Native, AccelKind::Embree]
+    } else {
+        vec![AccelKind::Native]
+    }
 }
 
 /// Nobody follows.
@@ -105,7 +112,13 @@ fn rel_mse(pixels: &[Rgb], reference: &[Rgb]) -> f64 {
 }
 
 /// Samples of a one-pixel picture with an accelerator, first channel.
-fn traced(world: &World, desc: &SceneDesc, accelerator: &impl Accelerator, samples: u64, bounces: u32) -> Vec<f64> {
+fn traced(
+    world: &World,
+    desc: &SceneDesc,
+    accelerator: &impl Accelerator,
+    samples: u64,
+    bounces: u32,
+) -> Vec<f64> {
     let camera = world.camera(&desc.camera, 1, 1);
     let tracer = PathTracer::new(world, &camera, accelerator, bounces, true);
     let sampler = Independent::new(3);

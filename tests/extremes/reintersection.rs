@@ -4,7 +4,9 @@
 use super::accelerators;
 use crate::support::random::Random;
 use pathtracer::accel::{Accelerator, Precision};
-use pathtracer::geometry::{Ball, Cuboid, Geometry, Hit, MeshPart, PrimitiveId, Ray, Rectangle, Shape, Solid};
+use pathtracer::geometry::{
+    Ball, Cuboid, Geometry, Hit, MeshPart, PrimitiveId, Ray, Rectangle, Shape, Solid,
+};
 use pathtracer::math::{DMat3, DVec3};
 
 /// Shapes of each kind; 1000 are asked for, and a tenth is run by default.

@@ -50,13 +50,15 @@ fn distances_to_slivers_lie_between_those_of_their_corners() {
         for accelerator in watertight_accelerators(&geometry) {
             for _ in 0..200 {
                 let target = mesh.positions[0] + along * random.unit();
-                let glance = along.normalize() + random.direction() * libm::pow(10.0, random.between(-5.0, -1.0));
+                let glance =
+                    along.normalize() + random.direction() * libm::pow(10.0, random.between(-5.0, -1.0));
                 let direction = glance.normalize();
                 let ray = Ray::new(target - direction * random.between(1.0, 600.0), direction);
                 let Some(hit) = accelerator.intersect(&ray) else { continue };
                 hits += 1;
                 let depths = mesh.positions.iter().map(|&p| (p - ray.origin).dot(ray.direction));
-                let (low, high) = depths.fold((f64::INFINITY, 0f64), |(low, high), d| (low.min(d), high.max(d)));
+                let (low, high) =
+                    depths.fold((f64::INFINITY, 0f64), |(low, high), d| (low.min(d), high.max(d)));
                 // The corners are rounded to f32 of the mesh's size, 2^-24 of up to 1200.
                 let step = 1200.0 / 16_777_216.0;
                 assert!(hit.t >= low - step && hit.t <= high + step, "{} {hit:?} {ray:?}", accelerator.name);
