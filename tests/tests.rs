@@ -11,10 +11,10 @@ mod generate;
 /// Pictures in files: curve, formats, whole or not at all.
 mod picture;
 
-/// Scene files and meshes as they should be: every key, every default, every style.
-mod scene_format;
 /// Bad scenes and meshes: each mistake and its message.
 mod scene_errors;
+/// Scene files and meshes as they should be: every key, every default, every style.
+mod scene_format;
 
 /// Accelerators: identity with the oracle, leaks, ties, odd rays, structure.
 mod accel;
@@ -22,10 +22,10 @@ mod accel;
 #[cfg(feature = "embree")]
 mod embree;
 
-/// The samplers and the warps.
-mod sampling;
 /// Every lobe against its density, its colour, its limits.
 mod material;
+/// The samplers and the warps.
+mod sampling;
 
 /// Every light against its density.
 mod lights;
