@@ -4,7 +4,7 @@
 //! Only + - * / in f64: the same bits on every machine and in every instruction set.
 
 use super::frame::LocalRay;
-use crate::math::DVec3;
+use crate::math::{DVec3, cross32, dot32, subtract32};
 
 /// Up to eight triangles, structure of arrays, in the f32 coordinates of their [`super::LocalFrame`].
 #[derive(Clone, Debug, PartialEq)]
@@ -143,7 +143,7 @@ impl TriangleBlock {
     /// Counting roundings, each of U, V and den is wrong by at most 7 * 2^-24 and W by at most 9 * 2^-24 times
     /// max|d| (|C| (|e1| + |e2|) + |e1| |e2|), 1-norms all; `bound` is 16.7 * 2^-24 of it, which leaves room for its
     /// own roundings and for those of the f64 decision. The smallest normal number covers products that underflow.
-    /// Values that are not finite keep the lane.
+    /// A NaN counts for neither side.
     #[allow(clippy::needless_range_loop)] // a plain loop over lanes becomes vector instructions
     #[inline(always)]
     fn candidates(&self, ray: &LocalRay) -> u64 {
@@ -155,15 +155,14 @@ impl TriangleBlock {
         let mut keep = [false; 8];
         for lane in 0..8 {
             let a = [p0[0][lane], p0[1][lane], p0[2][lane]];
-            let e1 = subtract([p1[0][lane], p1[1][lane], p1[2][lane]], a);
-            let e2 = subtract([p2[0][lane], p2[1][lane], p2[2][lane]], a);
-            let c = subtract(a, o);
-            let moment = cross(c, d);
-            let (u, v) = (dot(moment, e2), -dot(moment, e1));
-            let w = dot(cross(e1, e2), d) - u - v;
+            let e1 = subtract32([p1[0][lane], p1[1][lane], p1[2][lane]], a);
+            let e2 = subtract32([p2[0][lane], p2[1][lane], p2[2][lane]], a);
+            let c = subtract32(a, o);
+            let moment = cross32(c, d);
+            let (u, v) = (dot32(moment, e2), -dot32(moment, e1));
+            let w = dot32(cross32(e1, e2), d) - u - v;
             let (l1, l2) = (norm1(e1), norm1(e2));
             let bound = scale * (norm1(c) * (l1 + l2) + l1 * l2) + f32::MIN_POSITIVE;
-            // Written so that a NaN keeps the lane.
             let (below, above) = (-bound, bound);
             let negative = (u < below) | (v < below) | (w < below);
             let positive = (u > above) | (v > above) | (w > above);
@@ -173,21 +172,6 @@ impl TriangleBlock {
         }
         u64::from_le_bytes(keep.map(u8::from))
     }
-}
-
-#[inline(always)]
-fn subtract(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-#[inline(always)]
-fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-#[inline(always)]
-fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 #[inline(always)]
