@@ -4,7 +4,7 @@
 //! Only + - * / in f64: the same bits on every machine and in every instruction set.
 
 use super::frame::LocalRay;
-use crate::math::DVec3;
+use crate::math::{DVec3, cross32, dot32, subtract32};
 
 /// Up to eight triangles, structure of arrays, in the f32 coordinates of their [`super::LocalFrame`].
 #[derive(Clone, Debug, PartialEq)]
@@ -137,7 +137,7 @@ impl TriangleBlock {
     /// own roundings and for those of the f64 decision, which sees the ray before it was rounded to f32: the direction
     /// within 2^-24 max|d|, one more unit in each of the two terms, and the origin within 2^-23 |o|, which is
     /// 2 * 2^-24 max|d| |o| (|e1| + |e2|), of which `bound` has twice that. The smallest normal number covers products
-    /// that underflow. Values that are not finite keep the lane.
+    /// that underflow. A NaN counts for neither side.
     #[allow(clippy::needless_range_loop)] // a plain loop over lanes becomes vector instructions
     #[inline(always)]
     fn candidates(&self, ray: &LocalRay) -> u64 {
@@ -150,15 +150,14 @@ impl TriangleBlock {
         let mut keep = [false; 8];
         for lane in 0..8 {
             let a = [p0[0][lane], p0[1][lane], p0[2][lane]];
-            let e1 = subtract([p1[0][lane], p1[1][lane], p1[2][lane]], a);
-            let e2 = subtract([p2[0][lane], p2[1][lane], p2[2][lane]], a);
-            let c = subtract(a, o);
-            let moment = cross(c, d);
-            let (u, v) = (dot(moment, e2), -dot(moment, e1));
-            let w = dot(cross(e1, e2), d) - u - v;
+            let e1 = subtract32([p1[0][lane], p1[1][lane], p1[2][lane]], a);
+            let e2 = subtract32([p2[0][lane], p2[1][lane], p2[2][lane]], a);
+            let c = subtract32(a, o);
+            let moment = cross32(c, d);
+            let (u, v) = (dot32(moment, e2), -dot32(moment, e1));
+            let w = dot32(cross32(e1, e2), d) - u - v;
             let (l1, l2) = (norm1(e1), norm1(e2));
             let bound = scale * ((norm1(c) + moved) * (l1 + l2) + l1 * l2) + f32::MIN_POSITIVE;
-            // Written so that a NaN keeps the lane.
             let (below, above) = (-bound, bound);
             let negative = (u < below) | (v < below) | (w < below);
             let positive = (u > above) | (v > above) | (w > above);
@@ -168,21 +167,6 @@ impl TriangleBlock {
         }
         u64::from_le_bytes(keep.map(u8::from))
     }
-}
-
-#[inline(always)]
-fn subtract(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-#[inline(always)]
-fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-#[inline(always)]
-fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 #[inline(always)]

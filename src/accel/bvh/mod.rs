@@ -1,8 +1,8 @@
 //! The native accelerator: a tree of boxes, eight children a node, in pure Rust.
 //!
 //! One tree holds the triangles, in blocks of up to eight a leaf; one holds the solids, one a leaf. Both share the
-//! builder ([`build`]), the node ([`node`]) and the traversal ([`traverse`]); only the leaves differ ([`leaf`],
-//! [`fast`]). The boxes and the node test are conservative, the shared leaf decides: so hits are those of
+//! builder (`build`), the node (`node`) and the traversal (`traverse`); only the leaves differ (`leaf`,
+//! `fast`). The boxes and the node test are conservative, the shared leaf decides: so hits are those of
 //! [`super::brute_force::BruteForce`], bit by bit, in every instruction set.
 
 mod build;
