@@ -21,6 +21,9 @@ mod accel;
 /// Embree: the oracle's hits at exact, the promises of robust and fast, refusals.
 #[cfg(feature = "embree")]
 mod embree;
+/// Robust: where Embree and the native accelerator disagree, and why they may.
+#[cfg(feature = "embree")]
+mod embree_agreement;
 
 /// Every lobe against its density, its colour, its limits.
 mod material;
@@ -35,10 +38,16 @@ mod transport;
 /// Numerical stability: sizes, places, gaps, ties and rays at the extremes.
 mod extremes;
 
+/// Whole pictures against references of another renderer, block by block.
+mod golden;
+
 /// The sums: the tree of chunks.
 mod film;
 /// Chunks, tiles, threads, stopping.
 mod render;
+
+/// The same bytes for all threads, tiles, accelerators and instruction sets, on every sample scene.
+mod identity;
 
 /// The program from outside.
 mod cli;

@@ -5,3 +5,6 @@ mod camera;
 mod direct;
 mod furnace;
 mod invariance;
+mod long;
+mod rays;
+mod solid_angles;
