@@ -91,7 +91,7 @@ pub(super) struct RenderArguments {
     /// What finds hits [default: embree where compiled in]
     #[arg(long, value_name = "NAME", value_parser = choice(&ACCELS))]
     accel: Option<AccelKind>,
-    /// How hits of triangles are found [default: robust]
+    /// How hits of triangles are found [default: exact]
     #[arg(long, value_name = "NAME", value_parser = choice(&PRECISIONS))]
     precision: Option<Precision>,
     /// Most instructions to use [default: the machine's best]
