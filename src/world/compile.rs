@@ -27,6 +27,7 @@ impl World {
             return Err(Error::Scene(problems));
         }
         let geometry = Geometry::new(parts.solids, &parts.meshes);
+        let mesh_rounding = mesh_rounding(&geometry, &parts.meshes);
         let emission: Vec<Rgb> =
             desc.objects.iter().map(|object| emission_of(&object.material.kind)).collect();
         let sky = Sky::new(&desc.environment);
@@ -40,10 +41,22 @@ impl World {
             materials: desc.objects.iter().map(|object| material_of(&object.material.kind)).collect(),
             emission,
             normals: parts.normals,
+            mesh_rounding,
         };
         world.requires = Requires::of(desc, &world);
         Ok(world)
     }
+}
+
+/// By how much, at most, each mesh's corners have been moved along an axis when they were rounded.
+fn mesh_rounding(geometry: &Geometry, meshes: &[MeshPart]) -> Vec<f64> {
+    let mut corners = geometry.vertices.iter();
+    let moved = |(&world, &[x, y, z]): (&DVec3, &[f32; 3])| {
+        let rounded = DVec3::new(x.into(), y.into(), z.into());
+        (geometry.mesh_frame.to_local(world) - rounded).abs().max_element() / geometry.mesh_frame.scale
+    };
+    let most = |mesh: &MeshPart| mesh.positions.iter().zip(corners.by_ref()).map(moved).fold(0.0, f64::max);
+    meshes.iter().map(most).collect()
 }
 
 /// The component-wise lower median of the objects' positions: a number that stands in the file, so that moving the
