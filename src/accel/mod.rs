@@ -82,7 +82,7 @@ impl<K: Kernel> Accelerator for K {
             return closest(self, ray);
         }
         let (unit, length) = with_unit_direction(ray)?;
-        closest(self, &unit).map(|hit| Hit { t: hit.t / length, ..hit })
+        closest(self, &unit).map(|hit| Hit { t: (hit.t / length).max(f64::MIN_POSITIVE), ..hit })
     }
 
     fn occluded(&self, ray: &Ray, t_max: f64, target: PrimitiveId) -> bool {
@@ -111,7 +111,7 @@ fn closest<K: Kernel>(kernel: &K, ray: &Ray) -> Option<Hit> {
     if !geometry.triangles.is_empty()
         && let Some(local) = local_ray(&geometry.mesh_frame, ray, &best)
     {
-        best = nearer(best, kernel.closest_triangle(&local).map(|hit| geometry.world_hit(ray, &hit)));
+        best = nearer(best, kernel.closest_triangle(&local).map(|hit| geometry.world_hit(&local, &hit)));
     }
     best
 }

@@ -33,16 +33,18 @@ pub(super) fn run(scenes: &[PathBuf]) -> u8 {
 fn report(path: &Path) -> Result<String> {
     let scene = scene::load(path)?;
     let world = World::compile(&scene.desc)?;
-    let mut text = listed(&scene.warnings);
+    let (width, height, samples) = (1920, 1080, 1024);
+    let guards = world.guards(&scene.desc, width)?;
+    let warnings: Vec<Diagnostic> = scene.warnings.into_iter().chain(guards).collect();
+    let mut text = listed(&warnings);
     let counts: Vec<String> =
         describe::counts(&scene.desc).into_iter().map(|(name, count)| format!("{count} {name}")).collect();
     let contents = if counts.is_empty() { "no objects".into() } else { counts.join(", ") };
     let triangles = describe::triangles(&scene.desc);
-    let (width, height, samples) = (1920, 1080, 1024);
     let picture = megabytes(film_bytes(width, height, samples, CHUNK));
     let memory = megabytes(world_bytes(&world) as u64);
     let lines = [
-        format!("{}: {}", path.display(), verdict(&scene.warnings)),
+        format!("{}: {}", path.display(), verdict(&warnings)),
         format!("  contains: {contents}; {triangles} triangles in meshes"),
         format!("  requires: {}", world.requires),
         format!(

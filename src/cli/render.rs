@@ -28,6 +28,10 @@ pub(super) fn run(job: &Job) -> anyhow::Result<u8> {
     }
     let (world, compile) = timed(|| World::compile(&scene.desc));
     let world = world?;
+    let guards = world.guards(&scene.desc, job.settings.width)?;
+    if !job.quiet {
+        guards.iter().for_each(say);
+    }
     if job.json {
         event::emit(&Event::Start { job: JobRecord::new(job), requires: &world.requires });
     }

@@ -31,6 +31,12 @@ impl Ball {
         Some(if b > 0.0 { (other, q) } else { (q, other) })
     }
 
+    /// The distance > 0 at which a ray leaves the sphere that starts on its surface, or within rounding of it, and goes
+    /// inward: there always is one, however little the ray enters.
+    pub fn exit(&self, origin: DVec3, direction: DVec3) -> f64 {
+        self.roots(origin, direction).map_or(0.0, |(_, far)| far).max(f64::MIN_POSITIVE)
+    }
+
     /// The unit normal, away from the centre, where a ray from `origin` arrives after `t`.
     pub fn normal_at(&self, origin: DVec3, direction: DVec3, t: f64) -> DVec3 {
         ((origin - self.center) + direction * t).normalize()

@@ -45,6 +45,21 @@ impl Cuboid {
         (enter.0 <= leave.0).then_some((enter, leave))
     }
 
+    /// The distance > 0 and the face at which a ray leaves the box that starts on its surface, or within rounding of it,
+    /// and goes inward: there always is one, however near to an edge it enters.
+    pub fn exit(&self, origin: DVec3, direction: DVec3) -> (f64, u32) {
+        let o = self.to_local(origin - self.center);
+        let d = self.to_local(direction);
+        let mut leave = (f64::INFINITY, 0);
+        for axis in (0..3).filter(|&axis| d[axis] != 0.0) {
+            let far = (self.half[axis].copysign(d[axis]) - o[axis]) / d[axis];
+            if far < leave.0 {
+                leave = (far, 2 * axis as u32 + u32::from(d[axis] > 0.0));
+            }
+        }
+        (leave.0.max(f64::MIN_POSITIVE), leave.1)
+    }
+
     /// From the world's axes to the box's.
     pub fn to_local(&self, v: DVec3) -> DVec3 {
         DVec3::new(v.dot(self.rotation.x_axis), v.dot(self.rotation.y_axis), v.dot(self.rotation.z_axis))

@@ -1,5 +1,6 @@
 //! The rectangle: two triangles with f64 corners that share a diagonal.
 
+use super::shear::{Shear, signed_area};
 use crate::math::{Bounds, DVec3};
 
 /// A rectangle. Seen from its front, `edge_u` runs to the right and `edge_v` up.
@@ -35,8 +36,8 @@ impl Rectangle {
         Rectangle { center, edge_u: half_u * 2.0, edge_v: half_v * 2.0, normal, corners }
     }
 
-    /// Where the line meets the rectangle; the distance may be negative. Rectangles that share two corners let no ray
-    /// through between them (the edge functions of neighbours are exact negatives).
+    /// Where the line meets the rectangle, up to `t_max`. It is decided as for the triangles of meshes, by exact signs of
+    /// corners that are seen along the ray: rectangles that share two corners let no ray through between them.
     pub fn intersect(&self, origin: DVec3, direction: DVec3, t_max: f64) -> Option<RectangleHit> {
         let cosine = self.normal.dot(direction);
         if cosine == 0.0 {
@@ -46,10 +47,10 @@ impl Rectangle {
         if !(t > 0.0 && t <= t_max) {
             return None;
         }
-        let [a, b, c, d] = self.corners.map(|corner| corner - origin);
-        let (ab, bc, cd, da) =
-            (edge(a, b, direction), edge(b, c, direction), edge(c, d, direction), edge(d, a, direction));
-        let ca = edge(c, a, direction);
+        let shear = Shear::onto_largest_axis(direction);
+        let [a, b, c, d] = self.corners.map(|corner| shear.project(corner - origin));
+        let (ab, bc, cd, da) = (signed_area(a, b), signed_area(b, c), signed_area(c, d), signed_area(d, a));
+        let ca = signed_area(c, a);
         let part = if same_sign(ab, bc, ca) {
             0
         } else if same_sign(cd, da, -ca) {
@@ -78,15 +79,7 @@ impl Rectangle {
     }
 }
 
-/// Twice the signed volume spanned by the edge pq and the direction d, seen from the ray's origin.
-///
-/// Exchanging p and q negates the result exactly, so two triangles that share an edge agree on its side and no gap is
-/// between them (Platis & Theoharis 2003; Embree's robust mode uses the same form in f32).
-#[inline(always)]
-fn edge(p: DVec3, q: DVec3, d: DVec3) -> f64 {
-    (p - q).cross(p + q).dot(d)
-}
-
+/// Whether no two of these have opposite signs; not if all are zero, which is how a triangle without area is seen.
 fn same_sign(a: f64, b: f64, c: f64) -> bool {
-    a.min(b).min(c) >= 0.0 || a.max(b).max(c) <= 0.0
+    (a.min(b).min(c) >= 0.0 || a.max(b).max(c) <= 0.0) && a + b + c != 0.0
 }

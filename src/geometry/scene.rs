@@ -1,6 +1,6 @@
 //! All primitives of a scene: flat arrays joined by indices.
 
-use super::{Ball, Cuboid, Hit, LocalFrame, PrimitiveId, Ray, Rectangle, TriangleHit};
+use super::{Ball, Cuboid, Hit, LocalFrame, LocalRay, PrimitiveId, Ray, Rectangle, TriangleHit};
 use crate::math::{Bounds, DVec3, round_down, round_up};
 
 /// The shape of a solid, in world space.
@@ -131,13 +131,21 @@ impl Geometry {
         }
         match shape {
             Shape::Ball(ball) => {
-                let (near, far) = ball.roots(ray.origin, ray.direction)?;
-                let t = if !leaves && near > 0.0 { near } else { far };
+                let t = if leaves {
+                    ball.exit(ray.origin, ray.direction)
+                } else {
+                    let (near, far) = ball.roots(ray.origin, ray.direction)?;
+                    if near > 0.0 { near } else { far }
+                };
                 (t > 0.0 && t <= t_max).then(|| hit(t, 0, 0.0, 0.0))
             }
             Shape::Cuboid(cuboid) => {
-                let (enter, leave) = cuboid.slabs(ray.origin, ray.direction)?;
-                let (t, face) = if !leaves && enter.0 > 0.0 { enter } else { leave };
+                let (t, face) = if leaves {
+                    cuboid.exit(ray.origin, ray.direction)
+                } else {
+                    let (enter, leave) = cuboid.slabs(ray.origin, ray.direction)?;
+                    if enter.0 > 0.0 { enter } else { leave }
+                };
                 if !(t > 0.0 && t <= t_max) {
                     return None;
                 }
@@ -158,12 +166,10 @@ impl Geometry {
             && self.intersect_solid(solid, ray, t_max).is_some_and(|h| h.t < t_max)
     }
 
-    /// A triangle's local hit as a hit of the path's ray: distance in world units from the start of `ray`.
-    pub fn world_hit(&self, ray: &Ray, hit: &TriangleHit) -> Hit {
-        let [a, b, c] = self.corners(hit.index);
-        let p = self.mesh_frame.to_world(a + (b - a) * hit.u + (c - a) * hit.v);
+    /// The hit of the local ray `ray` as a hit of the path's ray: distance in world units from the start of that one.
+    pub fn world_hit(&self, ray: &LocalRay, hit: &TriangleHit) -> Hit {
         let (object, part) = self.triangle_owner(hit.index);
-        let t = (p - ray.origin).dot(ray.direction).max(f64::MIN_POSITIVE);
+        let t = (ray.shift + hit.t / self.mesh_frame.scale).max(f64::MIN_POSITIVE);
         Hit { t, object, primitive: PrimitiveId::triangle(hit.index), part, u: hit.u, v: hit.v }
     }
 }

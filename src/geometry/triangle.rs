@@ -44,8 +44,8 @@ pub fn intersect_triangle(ray: &LocalRay, corners: [DVec3; 3]) -> Option<(f64, f
     (sum != 0.0).then(|| (t, weights[1] / sum, weights[2] / sum))
 }
 
-/// Where the line meets the plane of a triangle that another kernel says it hits: (t, u, v), the weights pulled into
-/// the triangle; where [`intersect_triangle`] finds a hit, the same bits. `None` for triangles without area and for
+/// Where the line meets the plane of a triangle that another kernel says it hits: (t, u, v), all pulled to those of the
+/// triangle; where [`intersect_triangle`] finds a hit, the same bits. `None` for triangles without area and for
 /// rays in the triangle's plane.
 pub fn plane_hit(ray: &LocalRay, corners: [DVec3; 3]) -> Option<(f64, f64, f64)> {
     let edges = ray.edges(corners);
@@ -60,6 +60,9 @@ pub fn plane_hit(ray: &LocalRay, corners: [DVec3; 3]) -> Option<(f64, f64, f64)>
     }
     let inside = weights.map(|w| w.clamp(0.0, 1.0));
     let total = inside[0] + inside[1] + inside[2];
+    // Beside a triangle that is seen edge-on its plane may be met anywhere.
+    let depths = corners.map(|corner| (corner - ray.origin64()).dot(ray.direction64()));
+    let t = t.max(depths[0].min(depths[1]).min(depths[2])).min(depths[0].max(depths[1]).max(depths[2]));
     Some((t, inside[1] / total, inside[2] / total))
 }
 

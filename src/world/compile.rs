@@ -8,7 +8,7 @@ use super::sky::{Sky, SkyKind};
 use crate::error::{Diagnostic, Error, Result, Severity};
 use crate::geometry::{Ball, Cuboid, Geometry, MeshPart, Rectangle, Shape, Solid};
 use crate::material::{ClearCoat, Diffuse, Material, Reflective, Refractive};
-use crate::math::{DMat3, DVec3, Rgb, sin_cos_degrees};
+use crate::math::{Bounds, DMat3, DVec3, Rgb, sin_cos_degrees};
 use crate::scene::desc::{Axes, MaterialKind, MeshDesc, ObjectDesc, SceneDesc, ShapeDesc};
 
 impl World {
@@ -20,13 +20,19 @@ impl World {
         for (index, object) in desc.objects.iter().enumerate() {
             parts.add(index as u32, object, origin);
             if !parts.last_is_finite() {
-                problems.push(out_of_range(object));
+                problems.push(out_of_range(
+                    object,
+                    format!("reaches farther than {LARGEST:e} units from the middle of the scene"),
+                ));
+            } else if parts.last_extent() < SMALLEST {
+                problems.push(out_of_range(object, format!("is smaller than {SMALLEST:e} units")));
             }
         }
         if !problems.is_empty() {
             return Err(Error::Scene(problems));
         }
         let geometry = Geometry::new(parts.solids, &parts.meshes);
+        let mesh_rounding = mesh_rounding(&geometry, &parts.meshes);
         let emission: Vec<Rgb> =
             desc.objects.iter().map(|object| emission_of(&object.material.kind)).collect();
         let sky = Sky::new(&desc.environment);
@@ -40,10 +46,22 @@ impl World {
             materials: desc.objects.iter().map(|object| material_of(&object.material.kind)).collect(),
             emission,
             normals: parts.normals,
+            mesh_rounding,
         };
         world.requires = Requires::of(desc, &world);
         Ok(world)
     }
+}
+
+/// By how much, at most, each mesh's corners have been moved along an axis when they were rounded.
+fn mesh_rounding(geometry: &Geometry, meshes: &[MeshPart]) -> Vec<f64> {
+    let mut corners = geometry.vertices.iter();
+    let moved = |(&world, &[x, y, z]): (&DVec3, &[f32; 3])| {
+        let rounded = DVec3::new(x.into(), y.into(), z.into());
+        (geometry.mesh_frame.to_local(world) - rounded).abs().max_element() / geometry.mesh_frame.scale
+    };
+    let most = |mesh: &MeshPart| mesh.positions.iter().zip(corners.by_ref()).map(moved).fold(0.0, f64::max);
+    meshes.iter().map(most).collect()
 }
 
 /// The component-wise lower median of the objects' positions: a number that stands in the file, so that moving the
@@ -133,10 +151,29 @@ impl Parts {
     }
 }
 
+impl Parts {
+    /// The shortest edge, the radius, or the largest side of a mesh.
+    fn last_extent(&self) -> f64 {
+        if self.last_is_mesh {
+            let corners = self.meshes.last().map_or(&[][..], |mesh| &mesh.positions);
+            let bounds = corners.iter().fold(Bounds::EMPTY, |bounds, &p| bounds.with_point(p));
+            return if bounds.is_empty() { 1.0 } else { (bounds.max - bounds.min).max_element() };
+        }
+        self.solids.last().map_or(1.0, |solid| match solid.shape {
+            Shape::Ball(ball) => ball.radius,
+            Shape::Cuboid(cuboid) => 2.0 * cuboid.half.min_element(),
+            Shape::Rectangle(r) => r.edge_u.abs().max_element().min(r.edge_v.abs().max_element()),
+        })
+    }
+}
+
 const FLAT: [u32; 3] = [u32::MAX; 3];
 
 /// Fourth powers of lengths must stay within the range of f64.
 const LARGEST: f64 = 1e75;
+
+/// Fourth powers of lengths must not vanish.
+const SMALLEST: f64 = 1e-75;
 
 /// How the coordinates of a mesh file become the world's.
 struct Placement {
@@ -200,10 +237,10 @@ fn material_of(kind: &MaterialKind) -> Material {
     }
 }
 
-fn out_of_range(object: &ObjectDesc) -> Diagnostic {
+fn out_of_range(object: &ObjectDesc, problem: String) -> Diagnostic {
     Diagnostic {
         severity: Severity::Error,
-        message: format!("the object reaches farther than {LARGEST:e} units from the middle of the scene"),
+        message: format!("the object {problem}"),
         location: Some(object.location.clone()),
         source_line: None,
         help: Some("bring positions and sizes into the range that numbers can hold".into()),

@@ -6,6 +6,7 @@
 
 mod camera;
 mod compile;
+mod guards;
 pub mod light;
 mod requires;
 mod shading;
@@ -41,6 +42,8 @@ pub struct World {
     emission: Vec<Rgb>,
     /// Normals of the mesh files, where they are used.
     normals: ShadingNormals,
+    /// By how much, at most, the corners of each mesh were moved along an axis when they were rounded to f32.
+    mesh_rounding: Vec<f64>,
 }
 
 /// Where a path meets a surface.

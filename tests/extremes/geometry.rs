@@ -15,6 +15,7 @@ fn config(cases: u32) -> Config {
     let regressions = FileFailurePersistence::WithSource("regressions");
     Config {
         cases,
+        max_global_rejects: 100 * cases,
         rng_seed: RngSeed::Fixed(17),
         failure_persistence: Some(Box::new(regressions)),
         ..Config::default()

@@ -65,9 +65,10 @@ fn distances_positions_and_normals_are_those_of_double_double() {
                     let error = (dd(point.position.z) - depth).to_f64().abs();
                     assert!(error < 1e-6 * (1.0 + x), "R {radius}: z is wrong by {error:e} at {x}");
                     // Bands would show as normals that stand still or go back.
+                    // Near the top z is 1 less its rounding.
                     let turned = point.normal.truncate().length();
                     assert!(
-                        turned >= last.truncate().length() && point.normal.z <= last.z,
+                        turned >= last.truncate().length() && point.normal.z <= last.z + f64::EPSILON,
                         "R {radius} at {x}"
                     );
                     last = point.normal;

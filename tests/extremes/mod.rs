@@ -7,6 +7,7 @@ mod floor;
 mod gaps;
 mod geometry;
 mod ground;
+mod guards;
 mod lights;
 mod odd_rays;
 mod refraction;

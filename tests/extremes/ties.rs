@@ -85,7 +85,7 @@ fn a_picture_of_coincident_surfaces_has_one_colour() {
     ];
     for objects in orders {
         let mut desc = scene(DVec3::new(-3.0, 0.3, 2.0), DVec3::ZERO, objects);
-        desc.camera.fov = 0.3;
+        desc.camera.fov = 0.2;
         for accel in kinds() {
             let pixels = picture(&desc, &Settings { accel, ..small(64, 64, 4, 1) });
             assert!(pixels.iter().all(|&pixel| pixel == red), "{accel:?}");

@@ -22,6 +22,8 @@ proptest! {
     fn the_f32_ray_is_within_its_rounding_and_never_behind_the_surface(
         frame in frame(), from in point(), side in direction(), along in direction(),
     ) {
+        // The box may have vanished in the digits of its place.
+        prop_assume!((frame.bounds.max - frame.bounds.min).max_element() >= 0.5);
         // Near the frame, in its own units, so that the ray is taken as it is.
         let start = frame.to_world((frame.bounds.min + frame.bounds.max) * 0.5 + from.normalize_or_zero() * 0.3);
         let ray = Ray { side, ..Ray::new(start, along) };
@@ -44,6 +46,7 @@ proptest! {
     fn a_ray_from_afar_is_moved_along_itself(
         frame in frame(), from in direction(), distance in 10.0..1e12f64, aim in point(),
     ) {
+        prop_assume!((frame.bounds.max - frame.bounds.min).max_element() >= 0.5);
         let middle = frame.to_world((frame.bounds.min + frame.bounds.max) * 0.5);
         let reach = (frame.bounds.max - frame.bounds.min).length() / frame.scale;
         let target = middle + aim.normalize_or_zero() * (0.4 * reach);

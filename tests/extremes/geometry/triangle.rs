@@ -94,7 +94,12 @@ proptest! {
         // One on each side of the plane through the ray and the edge.
         let across = (b - a).cross(direction).normalize_or_zero();
         let [c, d] = f64s([left, right, right])[..2] else { unreachable!("three corners") };
-        prop_assume!((c - a).dot(across) > 1e-3 && (d - a).dot(across) < -1e-3 && (b - a).length() > 1e-3);
+        let beside = |p: DVec3, side: f64| {
+            let away = (p - a).dot(across);
+            (p + across * (side * away.abs().max(0.01) - away)).as_vec3().as_dvec3()
+        };
+        let (c, d) = (beside(c, 1.0), beside(d, -1.0));
+        prop_assume!((b - a).length() > 1e-3);
         prop_assume!(aim > 1e-9 && aim < 1.0 - 1e-9);
         let ray = local(origin, direction);
         let hits = [[a, b, c], [b, a, d]].map(|corners| intersect_triangle(&ray, corners).is_some());

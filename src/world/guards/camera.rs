@@ -1,0 +1,131 @@
+//! The camera against the scene.
+
+use super::diagnostic;
+use crate::error::{Diagnostic, Severity};
+use crate::geometry::{Shape, Solid};
+use crate::material::Material;
+use crate::math::{Bounds, DVec3, EPSILON, Rgb};
+use crate::scene::desc::{ObjectDesc, SceneDesc};
+use crate::world::World;
+
+pub(super) fn check(world: &World, desc: &SceneDesc, width: u32) -> Vec<Diagnostic> {
+    let mut found: Vec<Diagnostic> =
+        [view(desc, width), direction(desc, width), lens(world, desc)].into_iter().flatten().collect();
+    let position = desc.camera.position - world.origin;
+    let reach = world.camera(&desc.camera, width, 1).lens_radius;
+    for (solid, index) in world.geometry.solids.iter().zip(0..) {
+        let Some(object) = desc.objects.get(solid.object as usize) else { continue };
+        let error = world.geometry.solid_point(index, solid.bounds().center(), DVec3::ZERO, DVec3::X).error;
+        let Some(height) = height_above(solid, position) else { continue };
+        if height.abs() <= reach.max(error.max_element()) {
+            found.push(on_the_surface(object, height, reach));
+        } else if height < 0.0 && is_dark_inside(world, solid) {
+            found.push(in_the_dark(object));
+        }
+    }
+    found
+}
+
+/// Width of a pixel in the middle of the picture, in radians.
+fn pixel_angle(desc: &SceneDesc, width: u32) -> f64 {
+    2.0 * libm::tan(desc.camera.fov * std::f64::consts::FRAC_PI_2) / f64::from(width.max(1))
+}
+
+/// Neighbouring pixels see the same.
+fn view(desc: &SceneDesc, width: u32) -> Option<Diagnostic> {
+    let (fov, angle) = (desc.camera.fov, pixel_angle(desc, width));
+    let message = format!(
+        "the camera sees the same in all pixels: a field of view of {fov:.1e} over {width} pixels makes {angle:.1e} \
+         radians a pixel, and directions have steps of {EPSILON:.1e}"
+    );
+    (angle < 4.0 * EPSILON).then(|| diagnostic(Severity::Error, None, message, "make Fov larger"))
+}
+
+/// Position and point looked at are so close, or so far out, that their difference is mostly rounding.
+fn direction(desc: &SceneDesc, width: u32) -> Option<Diagnostic> {
+    let (from, to) = (desc.camera.position, desc.camera.looking_at);
+    let (farthest, distance) = (from.abs().max(to.abs()).max_element(), (to - from).length());
+    let error = farthest * EPSILON / distance;
+    let angle = pixel_angle(desc, width);
+    if error <= angle {
+        return None;
+    }
+    let meaningless = error > 0.25 || error > angle * f64::from(width);
+    let severity = if meaningless { Severity::Error } else { Severity::Warning };
+    let message = format!(
+        "the camera's direction is known to within {error:.1e} radians and a pixel is {angle:.1e}: coordinates of \
+         {farthest:.1e} have steps of {:.1e}, and LookingAt is {distance:.1e} away from Position",
+        farthest * f64::EPSILON
+    );
+    Some(diagnostic(
+        severity,
+        None,
+        message,
+        "move LookingAt away from the camera, or the scene towards the origin",
+    ))
+}
+
+/// A lens that is larger than the distance it is focused at.
+fn lens(world: &World, desc: &SceneDesc) -> Option<Diagnostic> {
+    let radius = world.camera(&desc.camera, 1, 1).lens_radius;
+    let focus = desc.camera.focus_distance;
+    let message = format!(
+        "the lens has a radius of {radius:.1e}, more than the distance of {focus:.1e} it is focused at"
+    );
+    let help = "make DepthOfField or ApertureRadius smaller, or FocusDistance larger";
+    (radius > focus).then(|| diagnostic(Severity::Warning, None, message, help))
+}
+
+/// How far a point is outside of a body; negative inside, `None` for shapes without inside.
+fn height_above(solid: &Solid, p: DVec3) -> Option<f64> {
+    match solid.shape {
+        Shape::Ball(ball) => Some((p - ball.center).length() - ball.radius),
+        Shape::Cuboid(cuboid) => {
+            let beyond = cuboid.to_local(p - cuboid.center).abs() - cuboid.half;
+            let outside = beyond.max(DVec3::ZERO).length();
+            Some(if outside > 0.0 { outside } else { beyond.max_element() })
+        }
+        Shape::Rectangle(_) => None,
+    }
+}
+
+fn on_the_surface(object: &ObjectDesc, height: f64, reach: f64) -> Diagnostic {
+    let message = if reach > 0.0 {
+        format!("the camera's lens, with a radius of {reach:.1e}, reaches through the surface of this object")
+    } else {
+        format!(
+            "the camera is on the surface of this object ({height:.1e} above it): rounding decides what it sees"
+        )
+    };
+    diagnostic(
+        Severity::Warning,
+        Some(&object.location),
+        message,
+        "move the camera, or make the lens smaller",
+    )
+}
+
+/// Whether a body lets no light through, and neither shines nor may have a light in it.
+fn is_dark_inside(world: &World, solid: &Solid) -> bool {
+    let is_light = |object: u32| world.emission(object) != Rgb::ZERO;
+    let overlaps = |b: Bounds| {
+        let a = solid.bounds();
+        a.min.cmple(b.max).all() && b.min.cmple(a.max).all()
+    };
+    let geometry = &world.geometry;
+    let mut solids = geometry.solids.iter();
+    let has_light = solids.any(|other| is_light(other.object) && overlaps(other.bounds()))
+        || geometry.meshes.iter().any(|&(object, _)| is_light(object));
+    !matches!(world.material(solid.object), Material::Refractive(_)) && !has_light
+}
+
+fn in_the_dark(object: &ObjectDesc) -> Diagnostic {
+    let message =
+        "the camera is inside this object, which is opaque and has no light in it: the picture is black";
+    diagnostic(
+        Severity::Warning,
+        Some(&object.location),
+        message.into(),
+        "move the camera out, or put a light in",
+    )
+}
