@@ -22,6 +22,7 @@ use crate::scene::desc::CameraDesc;
 use crate::world::World;
 use rayon::prelude::*;
 use std::any::Any;
+use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
@@ -165,7 +166,7 @@ pub trait Watch: Sync {
     /// Called after every tile.
     fn progress(&self, progress: &Progress);
 
-    /// Whether to stop. Asked for every row of a tile; the chunk that is under way is given up.
+    /// Whether to stop. Asked for every row of a tile; the pass that is under way is given up.
     fn cancelled(&self) -> bool;
 }
 
@@ -174,7 +175,7 @@ pub trait Watch: Sync {
 pub struct Rendered {
     /// The sums of all samples.
     pub film: Film,
-    /// What was counted in the chunks that the film holds. Dropped samples, which were not finite or negative, count
+    /// What was counted for the samples that the film holds. Dropped samples, which were not finite or negative, count
     /// as black, so that all pixels have the same number of samples; there should be none.
     pub counters: Counters,
     /// Whether it was stopped before all samples were taken.
@@ -187,7 +188,7 @@ pub struct Rendered {
 
 /// Renders what `camera` sees of `world`.
 ///
-/// A render that is cancelled is no error: it holds the complete chunks, maybe none. Errors: settings that can't be, an
+/// A render that is cancelled is no error: it holds the complete passes, maybe none. Errors: settings that can't be, an
 /// accelerator that can't be built, a bug met on the way.
 pub fn render(
     world: &World,
@@ -245,7 +246,7 @@ impl Run<'_> {
     }
 }
 
-/// The chunk loop.
+/// The chunk loop. A chunk is taken in passes, so that a render which is stopped early has something to show.
 fn take_samples<F>(settings: &Settings, watch: &dyn Watch, sample: F) -> Result<Rendered>
 where
     F: Fn(u32, u32, u64, &mut Counters) -> Rgb + Sync,
@@ -253,34 +254,74 @@ where
     let start = Instant::now();
     let chunk = u64::from(settings.chunk);
     let mut film = Film::new(settings.width, settings.height, chunk);
-    let meter = Meter::new(settings);
+    let passes = Passes { settings, watch, meter: Meter::new(settings), sample };
     let mut counters = Counters::default();
     let mut cancelled = false;
     for index in 0..settings.samples.div_ceil(chunk) {
         let samples = index * chunk..settings.samples.min((index + 1) * chunk);
+        let wanted = samples.end - samples.start;
+        let (taken, sums) = passes.chunk(samples, &mut counters)?;
+        if taken > 0 {
+            film.add(index, taken, sums)?;
+        }
+        if taken < wanted {
+            cancelled = true;
+            break;
+        }
+    }
+    let render_seconds = start.elapsed().as_secs_f64();
+    Ok(Rendered { film, counters, cancelled, build_seconds: 0.0, render_seconds })
+}
+
+/// What the passes of a render share.
+struct Passes<'s, F> {
+    settings: &'s Settings,
+    watch: &'s dyn Watch,
+    meter: Meter,
+    sample: F,
+}
+
+impl<F> Passes<'_, F>
+where
+    F: Fn(u32, u32, u64, &mut Counters) -> Rgb + Sync,
+{
+    /// The sums of a chunk, and how many samples of a pixel they hold: fewer than wanted if cancelled. Passes double
+    /// what there is: 1, 1, 2, 4 ... samples, added in the same order as in one go.
+    fn chunk(&self, samples: Range<u64>, counters: &mut Counters) -> Result<(u64, Vec<Rgb>)> {
+        let mut sums = memory::plane(self.settings)?;
+        let mut complete = memory::plane(self.settings)?;
+        let mut next = samples.start;
+        while next < samples.end {
+            let taken = next - samples.start;
+            let end = samples.end.min(next + taken.max(1));
+            let Some(counted) = self.pass(next..end, &mut sums) else {
+                return Ok((taken, complete));
+            };
+            *counters += counted;
+            next = end;
+            if next < samples.end {
+                complete.copy_from_slice(&sums);
+            }
+        }
+        Ok((samples.end - samples.start, sums))
+    }
+
+    /// Adds samples to all pixels; `None` if cancelled, which leaves the sums unusable.
+    fn pass(&self, samples: Range<u64>, sums: &mut [Rgb]) -> Option<Counters> {
         let count = samples.end - samples.start;
-        let mut sums = memory::plane(settings)?;
-        let done = tile::split(&mut sums, settings.width, settings.tile_side())
+        tile::split(sums, self.settings.width, self.settings.tile_side())
             .into_par_iter()
             .with_max_len(1)
             .map(|mut tile: Tile<'_>| {
-                let counters = tile.sum(samples.clone(), &sample, || watch.cancelled())?;
-                watch.progress(&meter.add(tile.pixels() * count, counters.rays));
+                let counters = tile.sum(samples.clone(), &self.sample, || self.watch.cancelled())?;
+                self.watch.progress(&self.meter.add(tile.pixels() * count, counters.rays));
                 Some(counters)
             })
             .try_reduce(Counters::default, |mut a, b| {
                 a += b;
                 Some(a)
-            });
-        let Some(done) = done else {
-            cancelled = true;
-            break;
-        };
-        counters += done;
-        film.add(index, count, sums)?;
+            })
     }
-    let render_seconds = start.elapsed().as_secs_f64();
-    Ok(Rendered { film, counters, cancelled, build_seconds: 0.0, render_seconds })
 }
 
 /// Adds up the work of all threads for [`Watch::progress`].

@@ -1,8 +1,8 @@
 //! Robust: where Embree's kernel and the native one disagree, f32 can't tell.
 //!
-//! Both see the same f32 ray and the same f32 corners. The native kernel decides in f64, which is exact for what
-//! follows; Embree's decides in f32 (its Pluecker test), so it may differ only where a value that decides is smaller
-//! than the error of its f32 computation. Two kinds of values decide: the edge functions, and distances.
+//! Both see the same f32 corners. The native kernel decides in f64, which is exact for what follows; Embree's decides in
+//! f32 (its Pluecker test) with the ray rounded to f32, so it may differ only where a value that decides is smaller than
+//! the error of its computation. Two kinds of values decide: the edge functions, and distances.
 //!
 //! # The bound of an edge function
 //! u = 2^-24 is the greatest relative error of one operation; v is the greatest distance of a corner from the ray's
@@ -18,7 +18,11 @@
 //! 4. Embree also accepts what is outside by up to 2 u |U + V + W|; the sum is twice dot(n, d), n the cross product of
 //!    two edges and at most sqrt(3) / 2 e^2 long: 3.5 u e^2 <= 7 u e v.
 //!
-//! Together 29.7 u e v; 30 with the products of roundings.
+//! 5. The ray: its origin o is rounded by up to 2 u |o| (away from the surface that it leaves), its direction by u, so at
+//!    the triangle it lies up to 2 u |o| + u v aside. An edge function is twice the distance of the two lines times
+//!    |e x d|: u e (4 |o| + 2 v).
+//!
+//! Together u e (31.7 v + 4 |o|); 32 with the products of roundings.
 //!
 //! # The bound of a distance
 //! t = dot(p, n) / dot(n, d) <= v; c is the absolute cosine between n and d.
@@ -27,7 +31,9 @@
 //!    the plane about a corner, which is at most e from the hit: 4.4 u e^3 / (|n| c).
 //! 3. The two dot products: 3 u v / c and 3 u t / c; the reciprocal, good to 2^-22, product and comparison: 6 u t.
 //!
-//! Together 13 u v / c + 4.4 u e^3 / (|n| c); 14 and 5 with the products of roundings.
+//! 4. The ray lies aside by u (2 |o| + v), the hit along it by that over c.
+//!
+//! Together (14 u v + 2 u |o| + 4.4 u e^3 / |n|) / c; 15 and 5 with the products of roundings.
 
 use crate::support::meshes;
 use crate::support::random::Random;
@@ -55,7 +61,9 @@ enum Kind {
 
 /// A triangle as a ray sees it.
 struct View {
-    /// Greatest distance of a corner from the origin, and greatest length of an edge.
+    /// Distance of the ray's start from the origin of the f32 coordinates.
+    start: f64,
+    /// Greatest distance of a corner from the ray's start, and greatest length of an edge.
     far: f64,
     edge: f64,
     /// Smallest absolute edge function.
@@ -75,6 +83,7 @@ impl View {
         let function = |(p, q): (DVec3, DVec3)| (p - q).cross(p + q).dot(d).abs();
         let normal = (v[1] - v[0]).cross(v[2] - v[0]);
         View {
+            start: ray.origin64().length(),
             far: greatest(v.map(DVec3::length)),
             edge: greatest(edges.map(|(p, q)| (p - q).length())),
             nearest: edges.map(function).into_iter().fold(f64::INFINITY, f64::min),
@@ -84,13 +93,13 @@ impl View {
     }
 
     fn is_on_edge(&self) -> bool {
-        self.nearest <= 30.0 * U * self.edge * self.far
+        self.nearest <= U * self.edge * (32.0 * self.far + 4.0 * self.start)
     }
 
     /// Of the distance, in local units.
     fn error(&self) -> f64 {
         let tilt = 5.0 * self.edge * self.edge * self.edge / self.normal;
-        (14.0 * self.far + tilt) * U / self.cosine
+        (15.0 * self.far + 2.0 * self.start + tilt) * U / self.cosine
     }
 }
 

@@ -78,9 +78,9 @@ fn rays_and_progress_are_counted() {
     let total = 37 * 23 * 20;
     assert_eq!(rendered.counters.rays, 3 * total);
     let seen = watch.seen.lock().expect("no panic before");
-    // 5 x 3 tiles in each of two chunks.
-    assert_eq!(seen.len(), 30);
-    let last = seen.iter().max_by_key(|progress| progress.samples).expect("30 entries");
+    // 5 x 3 tiles in each pass: of 1, 1, 2, 4 and 8 samples in the first chunk, of 1, 1 and 2 in the second.
+    assert_eq!(seen.len(), 15 * 8);
+    let last = seen.iter().max_by_key(|progress| progress.samples).expect("entries");
     assert_eq!(*last, Progress { samples: total, total, rays: 3 * total });
 }
 
@@ -107,6 +107,16 @@ fn a_cancelled_render_keeps_its_complete_chunks() {
     assert!(rendered.cancelled);
     assert_eq!(rendered.film, run(&small(32)).film);
     assert_eq!(rendered.counters.rays, 3 * pixels * 32);
+}
+
+#[test]
+fn a_render_cancelled_in_its_first_chunk_keeps_its_complete_passes() {
+    let pixels = 37 * 23;
+    for taken in [1, 2, 4, 8] {
+        let rendered = accumulate(&small(64), &Limit::new(pixels * taken), synthetic).expect("no error");
+        assert!(rendered.cancelled);
+        assert_eq!(rendered.film, run(&small(taken)).film);
+    }
 }
 
 #[test]

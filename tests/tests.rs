@@ -38,6 +38,9 @@ mod transport;
 /// Whole pictures against references of another renderer, block by block.
 mod golden;
 
+/// Numerical stability: sizes, places, gaps, ties and rays at the extremes.
+mod extremes;
+
 /// The sums: the tree of chunks.
 mod film;
 /// Chunks, tiles, threads, stopping.

@@ -18,7 +18,7 @@ impl<'g> BruteForce<'g> {
         let triangles = 0..self.geometry.triangles.len() as u32;
         triangles.filter(|&index| !ray.excludes(index)).filter_map(|index| {
             let corners = self.geometry.corners(index);
-            let (t, u, v) = intersect_triangle(ray.origin64(), ray.direction64(), corners)?;
+            let (t, u, v) = intersect_triangle(ray, corners)?;
             (t > 0.0).then_some(TriangleHit { t, index, u, v })
         })
     }

@@ -45,7 +45,7 @@ pub struct BuildOptions {
 
 /// Answers for rays; see [`crate::geometry`] for what a hit is.
 pub trait Accelerator: Sync {
-    /// The closest hit, or `None`.
+    /// The closest hit, or `None`. The direction of `ray` may have any length; t is in units of it.
     fn intersect(&self, ray: &Ray) -> Option<Hit>;
 
     /// Whether anything but `target` is in the way, at t in (0, t_max). `t_max` may be infinite.
@@ -77,45 +77,77 @@ pub trait Kernel: Sync {
 
 impl<K: Kernel> Accelerator for K {
     fn intersect(&self, ray: &Ray) -> Option<Hit> {
-        if !ray.is_finite() {
-            return None;
+        if is_unit(ray) {
+            return closest(self, ray);
         }
-        let geometry = self.geometry();
-        let mut best: Option<Hit> = None;
-        for &solid in &geometry.linear_solids {
-            best = nearer(best, geometry.intersect_solid(solid, ray, distance(&best)));
-        }
-        if !geometry.tree_solids.is_empty()
-            && let Some(local) = local_ray(&geometry.solid_frame, ray, &best)
-        {
-            best = self.closest_solid(ray, &local, best);
-        }
-        if !geometry.triangles.is_empty()
-            && let Some(local) = local_ray(&geometry.mesh_frame, ray, &best)
-        {
-            best = nearer(best, self.closest_triangle(&local).map(|hit| geometry.world_hit(ray, &hit)));
-        }
-        best
+        let (unit, length) = with_unit_direction(ray)?;
+        closest(self, &unit).map(|hit| Hit { t: hit.t / length, ..hit })
     }
 
     fn occluded(&self, ray: &Ray, t_max: f64, target: PrimitiveId) -> bool {
-        if !ray.is_finite() || t_max.is_nan() || t_max <= 0.0 {
+        if t_max.is_nan() || t_max <= 0.0 {
             return false;
         }
-        let geometry = self.geometry();
-        let linear = geometry.linear_solids.iter();
-        if linear.into_iter().any(|&solid| geometry.solid_occludes(solid, ray, t_max, target)) {
-            return true;
+        if is_unit(ray) {
+            return any(self, ray, t_max, target);
         }
-        if !geometry.tree_solids.is_empty()
-            && let Some(local) = geometry.solid_frame.localize(ray, t_max, target)
-            && self.any_solid(ray, &local, t_max, target)
-        {
-            return true;
-        }
-        !geometry.triangles.is_empty()
-            && geometry.mesh_frame.localize(ray, t_max, target).is_some_and(|local| self.any_triangle(&local))
+        with_unit_direction(ray).is_some_and(|(unit, length)| any(self, &unit, t_max * length, target))
     }
+}
+
+/// The closest hit of a ray with a unit direction.
+fn closest<K: Kernel>(kernel: &K, ray: &Ray) -> Option<Hit> {
+    let geometry = kernel.geometry();
+    let mut best: Option<Hit> = None;
+    for &solid in &geometry.linear_solids {
+        best = nearer(best, geometry.intersect_solid(solid, ray, distance(&best)));
+    }
+    if !geometry.tree_solids.is_empty()
+        && let Some(local) = local_ray(&geometry.solid_frame, ray, &best)
+    {
+        best = kernel.closest_solid(ray, &local, best);
+    }
+    if !geometry.triangles.is_empty()
+        && let Some(local) = local_ray(&geometry.mesh_frame, ray, &best)
+    {
+        best = nearer(best, kernel.closest_triangle(&local).map(|hit| geometry.world_hit(ray, &hit)));
+    }
+    best
+}
+
+/// Whether anything but `target` is in the way of a ray with a unit direction.
+fn any<K: Kernel>(kernel: &K, ray: &Ray, t_max: f64, target: PrimitiveId) -> bool {
+    let geometry = kernel.geometry();
+    let linear = geometry.linear_solids.iter();
+    if linear.into_iter().any(|&solid| geometry.solid_occludes(solid, ray, t_max, target)) {
+        return true;
+    }
+    if !geometry.tree_solids.is_empty()
+        && let Some(local) = geometry.solid_frame.localize(ray, t_max, target)
+        && kernel.any_solid(ray, &local, t_max, target)
+    {
+        return true;
+    }
+    !geometry.triangles.is_empty()
+        && geometry.mesh_frame.localize(ray, t_max, target).is_some_and(|local| kernel.any_triangle(&local))
+}
+
+/// Whether a ray is finite and its direction has length 1, to far more than its roundings.
+fn is_unit(ray: &Ray) -> bool {
+    ray.origin.is_finite() && (ray.direction.length_squared() - 1.0).abs() < 1e-9
+}
+
+/// A ray with a direction of any length as one with a unit direction, and that length; `None` if it is not finite or
+/// has no direction.
+fn with_unit_direction(ray: &Ray) -> Option<(Ray, f64)> {
+    // Scaled first: squares of components leave the range of numbers long before the components do.
+    let largest = ray.direction.abs().max_element();
+    if !ray.is_finite() || largest < f64::MIN_POSITIVE {
+        return None;
+    }
+    let scaled = ray.direction / largest;
+    let length = scaled.length();
+    Some((Ray { direction: scaled / length, ..*ray }, largest * length))
 }
 
 /// The ray in a local space, for hits that may come before `best`.

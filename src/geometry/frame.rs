@@ -1,5 +1,6 @@
 //! Local f32 space: where triangles and the nodes of accelerators live, and the way of a ray into it.
 
+use super::shear::{Shear, signed_area};
 use super::{PrimitiveId, Ray};
 use crate::math::{Bounds, DVec3, Vec3, round_down, round_up};
 
@@ -16,13 +17,17 @@ pub struct LocalFrame {
     radius: f64,
 }
 
-/// A ray in local space, as every accelerator sees it.
+/// A ray in local space, as every accelerator sees it: in f64 for the decision, rounded to f32 for what only finds
+/// candidates.
 #[derive(Clone, Copy, Debug)]
 pub struct LocalRay {
-    /// Start.
+    /// Start, rounded away from the surface that the ray leaves: within 2^-23 of the size of each component.
     pub origin: Vec3,
-    /// Unit direction rounded to f32.
+    /// Unit direction, rounded to nearest.
     pub direction: Vec3,
+    origin64: DVec3,
+    direction64: DVec3,
+    shear: Shear,
     /// Longest distance of interest in units of `direction`; finite.
     pub t_max: f64,
     /// World distance from the start of the path's ray to `origin`.
@@ -32,16 +37,25 @@ pub struct LocalRay {
 }
 
 impl LocalRay {
-    /// The start in f64, exactly.
+    /// The start in f64.
     #[inline(always)]
     pub fn origin64(&self) -> DVec3 {
-        self.origin.as_dvec3()
+        self.origin64
     }
 
-    /// The direction in f64, exactly.
+    /// The unit direction in f64, the world's.
     #[inline(always)]
     pub fn direction64(&self) -> DVec3 {
-        self.direction.as_dvec3()
+        self.direction64
+    }
+
+    /// Twice the signed areas, seen along the ray, of the three triangles that it makes with the edges opposite to the
+    /// corners; their signs are exact for the corners as they are seen, so that triangles that share edges or corners
+    /// let no ray through.
+    #[inline(always)]
+    pub(super) fn edges(&self, corners: [DVec3; 3]) -> [f64; 3] {
+        let [a, b, c] = corners.map(|corner| self.shear.project(corner - self.origin64));
+        [signed_area(b, c), signed_area(c, a), signed_area(a, b)]
     }
 
     /// Whether the triangle with this index can't be hit by this ray.
@@ -107,7 +121,8 @@ impl LocalFrame {
     /// The ray in local space, for hits up to the world distance `t_max`; `None` if it misses everything in here.
     ///
     /// A ray that starts far away is first moved, in f64, to the sphere around the bounds, so that rounding it to f32
-    /// costs no more than the size of what is in here. A ray that leaves a surface is rounded away from it.
+    /// costs no more than the size of what is in here. A ray that leaves a surface is rounded away from it, for kernels
+    /// that decide in f32.
     pub fn localize(&self, ray: &Ray, t_max: f64, target: PrimitiveId) -> Option<LocalRay> {
         let mut origin = self.to_local(ray.origin);
         let mut shift = 0.0;
@@ -131,6 +146,9 @@ impl LocalFrame {
         Some(LocalRay {
             origin: round_away(origin, side),
             direction: ray.direction.as_vec3(),
+            origin64: origin,
+            direction64: ray.direction,
+            shear: Shear::onto_largest_axis(ray.direction),
             t_max: local_t_max.min(f64::from(f32::MAX)),
             shift,
             excluded: [ray.leaving, target],

@@ -8,10 +8,11 @@
 //! # Two kinds of primitives, two rays
 //! - **Solids** (balls, boxes, rectangles) are few and may be of any size. They are decided in f64, with the f64 ray.
 //! - **Triangles of meshes** are many. They are stored in f32 in a [`LocalFrame`]: moved by an f64 pivot, scaled by the
-//!   power of two that brings their extent into [1, 2). The f32 ray that all accelerators see alike is made by
-//!   [`LocalFrame::localize`], in f64, from the ray of the path: moved to the mesh if it starts far away, rounded away
-//!   from the surface that it leaves. So neither the place nor the size of a scene, nor a ball of radius 1e7 under a
-//!   mesh, costs the mesh precision.
+//!   power of two that brings their extent into [1, 2). The ray that all accelerators see alike is made by
+//!   [`LocalFrame::localize`], in f64, from the ray of the path: moved to the mesh if it starts far away. Its roundings
+//!   to f32 only find candidates; the decision is made in f64 with the f64 ray, so that a ball that rests on a floor a
+//!   million times larger, or a gap of 1e-5 beside a large mesh, is seen as it is. So neither the place nor the size of
+//!   a scene, nor a ball of radius 1e7 under a mesh, costs the mesh precision.
 //!
 //! A ray that leaves a flat primitive, or the outside of a convex one, can't meet it again: such a primitive is left
 //! out by its id ([`Ray::leaving`]), which holds at every scale. Offsets only have to keep a ray off *other* surfaces.
@@ -21,6 +22,7 @@ mod cuboid;
 mod frame;
 mod rectangle;
 mod scene;
+mod shear;
 mod surface;
 mod triangle;
 

@@ -4,7 +4,7 @@
 //! Only + - * / in f64: the same bits on every machine and in every instruction set.
 
 use super::frame::LocalRay;
-use crate::math::DVec3;
+use crate::math::{DVec3, cross32, dot32, subtract32};
 
 /// Up to eight triangles, structure of arrays, in the f32 coordinates of their [`super::LocalFrame`].
 #[derive(Clone, Debug, PartialEq)]
@@ -29,54 +29,46 @@ pub struct TriangleHit {
     pub v: f64,
 }
 
-/// Twice the signed volume spanned by the edge pq and the direction d, seen from the ray's origin.
-///
-/// Exchanging p and q negates the result exactly, so two triangles that share an edge agree on its side and no gap is
-/// between them (Platis & Theoharis 2003; Embree's robust mode uses the same form in f32).
+/// Where the line of `ray` meets the triangle, as (t, u, v); t may be negative. `None` also for triangles without area
+/// and for rays in the triangle's plane.
 #[inline(always)]
-pub(super) fn edge(p: DVec3, q: DVec3, d: DVec3) -> f64 {
-    (p - q).cross(p + q).dot(d)
-}
-
-/// Where the line from `origin` along `direction` meets the triangle, as (t, u, v); t may be negative.
-/// `None` also for triangles without area and for rays in the triangle's plane.
-#[inline(always)]
-pub fn intersect_triangle(origin: DVec3, direction: DVec3, corners: [DVec3; 3]) -> Option<(f64, f64, f64)> {
-    let [a, b, c] = corners.map(|corner| corner - origin);
-    let (wa, wb, wc) = (edge(b, c, direction), edge(c, a, direction), edge(a, b, direction));
-    let negative = (wa < 0.0) | (wb < 0.0) | (wc < 0.0);
-    let positive = (wa > 0.0) | (wb > 0.0) | (wc > 0.0);
+pub fn intersect_triangle(ray: &LocalRay, corners: [DVec3; 3]) -> Option<(f64, f64, f64)> {
+    let weights = ray.edges(corners);
+    let negative = weights.iter().any(|&w| w < 0.0);
+    let positive = weights.iter().any(|&w| w > 0.0);
     if negative & positive {
         return None;
     }
-    let sum = wa + wb + wc;
-    let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-    let cosine = normal.dot(direction);
-    if sum == 0.0 || cosine == 0.0 {
-        return None;
-    }
-    Some((a.dot(normal) / cosine, wb / sum, wc / sum))
+    let sum = weights[0] + weights[1] + weights[2];
+    let t = plane_distance(ray, corners)?;
+    (sum != 0.0).then(|| (t, weights[1] / sum, weights[2] / sum))
 }
 
 /// Where the line meets the plane of a triangle that another kernel says it hits: (t, u, v), the weights pulled into
 /// the triangle; where [`intersect_triangle`] finds a hit, the same bits. `None` for triangles without area and for
 /// rays in the triangle's plane.
-pub fn plane_hit(origin: DVec3, direction: DVec3, corners: [DVec3; 3]) -> Option<(f64, f64, f64)> {
-    let [a, b, c] = corners.map(|corner| corner - origin);
-    let (wa, wb, wc) = (edge(b, c, direction), edge(c, a, direction), edge(a, b, direction));
-    let sum = wa + wb + wc;
-    let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-    let cosine = normal.dot(direction);
-    if sum == 0.0 || cosine == 0.0 {
+pub fn plane_hit(ray: &LocalRay, corners: [DVec3; 3]) -> Option<(f64, f64, f64)> {
+    let edges = ray.edges(corners);
+    let sum = edges[0] + edges[1] + edges[2];
+    let t = plane_distance(ray, corners)?;
+    if sum == 0.0 {
         return None;
     }
-    let weights = [wa / sum, wb / sum, wc / sum];
+    let weights = edges.map(|w| w / sum);
     if weights.iter().all(|&w| w >= 0.0) {
-        return Some((a.dot(normal) / cosine, weights[1], weights[2]));
+        return Some((t, weights[1], weights[2]));
     }
     let inside = weights.map(|w| w.clamp(0.0, 1.0));
     let total = inside[0] + inside[1] + inside[2];
-    Some((a.dot(normal) / cosine, inside[1] / total, inside[2] / total))
+    Some((t, inside[1] / total, inside[2] / total))
+}
+
+/// Distance to the plane of the corners.
+#[inline(always)]
+fn plane_distance(ray: &LocalRay, corners: [DVec3; 3]) -> Option<f64> {
+    let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+    let cosine = normal.dot(ray.direction64());
+    (cosine != 0.0).then(|| (corners[0] - ray.origin64()).dot(normal) / cosine)
 }
 
 impl TriangleBlock {
@@ -142,8 +134,10 @@ impl TriangleBlock {
     /// are U = (C x d).e2, V = -(C x d).e1 and W = den - U - V (Möller & Trumbore 1997 written as Plücker products).
     /// Counting roundings, each of U, V and den is wrong by at most 7 * 2^-24 and W by at most 9 * 2^-24 times
     /// max|d| (|C| (|e1| + |e2|) + |e1| |e2|), 1-norms all; `bound` is 16.7 * 2^-24 of it, which leaves room for its
-    /// own roundings and for those of the f64 decision. The smallest normal number covers products that underflow.
-    /// Values that are not finite keep the lane.
+    /// own roundings and for those of the f64 decision, which sees the ray before it was rounded to f32: the direction
+    /// within 2^-24 max|d|, one more unit in each of the two terms, and the origin within 2^-23 |o|, which is
+    /// 2 * 2^-24 max|d| |o| (|e1| + |e2|), of which `bound` has twice that. The smallest normal number covers products
+    /// that underflow. A NaN counts for neither side.
     #[allow(clippy::needless_range_loop)] // a plain loop over lanes becomes vector instructions
     #[inline(always)]
     fn candidates(&self, ray: &LocalRay) -> u64 {
@@ -152,18 +146,18 @@ impl TriangleBlock {
         let scale = 1e-6 * d[0].abs().max(d[1].abs()).max(d[2].abs());
         let [p0, p1, p2] = &self.corners;
         let [left, target] = ray.excluded_indices();
+        let moved = 0.25 * norm1(o);
         let mut keep = [false; 8];
         for lane in 0..8 {
             let a = [p0[0][lane], p0[1][lane], p0[2][lane]];
-            let e1 = subtract([p1[0][lane], p1[1][lane], p1[2][lane]], a);
-            let e2 = subtract([p2[0][lane], p2[1][lane], p2[2][lane]], a);
-            let c = subtract(a, o);
-            let moment = cross(c, d);
-            let (u, v) = (dot(moment, e2), -dot(moment, e1));
-            let w = dot(cross(e1, e2), d) - u - v;
+            let e1 = subtract32([p1[0][lane], p1[1][lane], p1[2][lane]], a);
+            let e2 = subtract32([p2[0][lane], p2[1][lane], p2[2][lane]], a);
+            let c = subtract32(a, o);
+            let moment = cross32(c, d);
+            let (u, v) = (dot32(moment, e2), -dot32(moment, e1));
+            let w = dot32(cross32(e1, e2), d) - u - v;
             let (l1, l2) = (norm1(e1), norm1(e2));
-            let bound = scale * (norm1(c) * (l1 + l2) + l1 * l2) + f32::MIN_POSITIVE;
-            // Written so that a NaN keeps the lane.
+            let bound = scale * ((norm1(c) + moved) * (l1 + l2) + l1 * l2) + f32::MIN_POSITIVE;
             let (below, above) = (-bound, bound);
             let negative = (u < below) | (v < below) | (w < below);
             let positive = (u > above) | (v > above) | (w > above);
@@ -173,21 +167,6 @@ impl TriangleBlock {
         }
         u64::from_le_bytes(keep.map(u8::from))
     }
-}
-
-#[inline(always)]
-fn subtract(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-#[inline(always)]
-fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-#[inline(always)]
-fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 #[inline(always)]
@@ -205,8 +184,7 @@ pub fn closest_in_block(block: &TriangleBlock, ray: &LocalRay, best: &mut Option
         let lane = mask.trailing_zeros() as usize / 8;
         mask &= mask - 1;
         let index = block.indices[lane];
-        if let Some((t, u, v)) = intersect_triangle(ray.origin64(), ray.direction64(), block.corners_of(lane))
-        {
+        if let Some((t, u, v)) = intersect_triangle(ray, block.corners_of(lane)) {
             let closer = match best {
                 Some(old) => (t, index) < (old.t, old.index),
                 None => t <= ray.t_max,
@@ -227,7 +205,7 @@ pub fn any_in_block(block: &TriangleBlock, ray: &LocalRay) -> bool {
     while mask != 0 {
         let lane = mask.trailing_zeros() as usize / 8;
         mask &= mask - 1;
-        if let Some((t, ..)) = intersect_triangle(ray.origin64(), ray.direction64(), block.corners_of(lane))
+        if let Some((t, ..)) = intersect_triangle(ray, block.corners_of(lane))
             && t > 0.0
             && t < ray.t_max
         {

@@ -10,8 +10,9 @@ use std::fs;
 pub fn film_bytes(width: u32, height: u32, samples: u64, chunk: u32) -> u64 {
     let pixels = u64::from(width) * u64::from(height);
     let planes = Film::most_nodes(samples.div_ceil(u64::from(chunk.max(1))));
-    // One plane more: the chunk under way while rendering, the encoded picture (24 bytes for EXR) afterwards.
-    pixels.saturating_mul((planes + 1) * size_of::<Rgb>() as u64)
+    // Two planes more: the chunk under way and its last complete pass; afterwards the encoded picture (24 bytes a pixel
+    // for EXR).
+    pixels.saturating_mul((planes + 2) * size_of::<Rgb>() as u64)
 }
 
 /// Whether the film fits into the memory that is free now; passes where the system does not say.

@@ -13,12 +13,12 @@ mod read;
 mod source;
 mod yaml;
 
-use crate::error::{Diagnostic, Error, Result};
+use crate::error::{Diagnostic, Error, Result, Severity};
 use desc::SceneDesc;
 use diagnostic::Report;
 use source::Source;
 use std::fs::File;
-use std::io::Read;
+use std::io::{self, Read};
 use std::path::Path;
 
 /// A scene that can be rendered.
@@ -33,10 +33,9 @@ pub struct Scene {
 /// Reads the scene file at `path` and the meshes that it names.
 ///
 /// # Errors
-/// [`Error::Io`] if the scene file can't be read; [`Error::Scene`] with all errors and warnings of the scene and its
-/// meshes if it holds a mistake.
+/// [`Error::Scene`]: that the file can't be read, or all errors and warnings of the scene and its meshes.
 pub fn load(path: &Path) -> Result<Scene> {
-    let failed = |source| Error::Io { action: "read the scene".into(), path: path.to_path_buf(), source };
+    let failed = |error: io::Error| Error::Scene(vec![unreadable(path, &error)]);
     let file = File::open(path).map_err(failed)?;
     let size = file.metadata().map_err(failed)?.len();
     let mut bytes = Vec::new();
@@ -58,6 +57,11 @@ pub fn load(path: &Path) -> Result<Scene> {
 pub fn parse(text: &str, file: &Path) -> Result<Scene> {
     let text = yaml::decode(text.as_bytes(), file).map_err(|diagnostic| Error::Scene(vec![*diagnostic]))?;
     read_text(text, file)
+}
+
+fn unreadable(path: &Path, error: &io::Error) -> Diagnostic {
+    let message = format!("cannot read the scene {}: {error}", path.display());
+    Diagnostic { severity: Severity::Error, message, location: None, source_line: None, help: None }
 }
 
 fn read_text(text: &str, file: &Path) -> Result<Scene> {

@@ -53,13 +53,13 @@ impl fmt::Display for Requires {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut parts = Vec::new();
         if self.triangles > 0 {
-            parts.push(format!("a tree over {} triangles", self.triangles));
+            parts.push(format!("a tree over {}", counted(self.triangles, "triangle")));
         }
         if self.tree_solids > 0 {
             parts.push(format!("a tree over {} balls, boxes and rectangles", self.tree_solids));
         }
         if self.linear_solids > 0 {
-            parts.push(format!("{} shapes without a tree", self.linear_solids));
+            parts.push(format!("{} without a tree", counted(self.linear_solids, "shape")));
         }
         parts.push(match self.sky {
             SkyKind::Black => "no sky".into(),
@@ -71,10 +71,14 @@ impl fmt::Display for Requires {
                 parts.push(name.into());
             }
         };
-        option(self.light_sampling, &format!("light sampling ({} area lights)", self.area_lights));
+        option(self.light_sampling, &format!("light sampling ({})", counted(self.area_lights, "area light")));
         option(self.lens, "a lens");
         option(self.shading_normals, "shading normals");
         option(self.refraction, "refraction");
         write!(f, "{}", parts.join(", "))
     }
+}
+
+fn counted(count: usize, noun: &str) -> String {
+    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }

@@ -82,7 +82,7 @@ impl<K: Kernel> Kernel for LastOfTies<K> {
         let others = (first.index..self.geometry().triangles.len() as u32).rev();
         let mut ties = others.filter_map(|index| {
             let corners = self.geometry().corners(index);
-            let (t, u, v) = intersect_triangle(ray.origin64(), ray.direction64(), corners)?;
+            let (t, u, v) = intersect_triangle(ray, corners)?;
             (t == first.t).then_some(TriangleHit { t, index, u, v })
         });
         ties.next()

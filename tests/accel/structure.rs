@@ -88,6 +88,17 @@ fn blocks_hold_every_triangle_once() {
 }
 
 #[test]
+fn meshes_take_at_most_90_bytes_a_triangle() {
+    for mesh in
+        [meshes::sphere(1.0, 300, 0.1, 71), meshes::terrain(200, 0.2, 72), meshes::soup(50_000, 0.1, 73)]
+    {
+        let geometry = of_mesh(mesh);
+        let bytes = native(&geometry).bytes() as f64 / geometry.triangles.len() as f64;
+        assert!(bytes <= 90.0, "{bytes} bytes a triangle");
+    }
+}
+
+#[test]
 fn the_tree_does_not_depend_on_the_number_of_threads() {
     let geometry = of_mesh(meshes::sphere(1.0, 420, 0.2, 67));
     let build = |threads| {

@@ -40,7 +40,7 @@ fn ctrl_c_writes_the_picture_so_far() {
     assert_eq!(code, Some(130));
     assert_eq!(last["event"], "interrupted");
     let samples = last["samples_taken"].as_u64().expect("a number");
-    assert!(samples >= 2 * 16 && samples.is_multiple_of(16), "{samples}");
+    assert!(samples >= 2 * 16, "{samples}");
     assert_eq!(image::open(folder.path("a.png")).expect("a picture").width(), 8);
     assert_eq!(folder.names(), ["a.png", "ball.yaml"]);
 }

@@ -7,10 +7,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Inputs that hold several mistakes on purpose.
-const SEVERAL: [&str; 8] = [
+const SEVERAL: [&str; 9] = [
     "several",
     "many",
     "several_in_camera",
+    "several_in_misspelled_shape",
     "several_objects",
     "several_sections",
     "several_behind_one_anchor",

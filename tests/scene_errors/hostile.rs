@@ -104,8 +104,8 @@ fn meshes_of_gigabytes_and_endless_lines() {
 fn a_scene_that_is_missing_or_a_folder() {
     let folder = tempfile::tempdir().unwrap();
     for path in [folder.path().join("missing.yaml"), folder.path().to_path_buf()] {
-        let Err(error @ Error::Io { .. }) = scene::load(&path) else { panic!("expected an error") };
-        assert!(error.to_string().starts_with(&format!("cannot read the scene {}: ", path.display())));
+        let Err(error @ Error::Scene(_)) = scene::load(&path) else { panic!("expected an error") };
+        assert!(error.to_string().starts_with(&format!("error: cannot read the scene {}: ", path.display())));
     }
 }
 

@@ -13,13 +13,10 @@ pub(crate) struct Answer {
 }
 
 impl Answer {
-    /// Asks an accelerator. `t` is where the any-hit queries end.
-    fn of(accelerator: &impl Accelerator, ray: &Ray, t: f64) -> Answer {
+    /// Asks an accelerator for what is in the way of a ray that hits `hit`; `t` is where the any-hit queries end.
+    fn of(accelerator: &impl Accelerator, ray: &Ray, hit: Option<Hit>, t: f64) -> Answer {
         let ends = [f64::INFINITY, t, t * (1.0 + 1e-12)];
-        Answer {
-            hit: accelerator.intersect(ray),
-            occluded: ends.map(|end| accelerator.occluded(ray, end, PrimitiveId::NONE)),
-        }
+        Answer { hit, occluded: ends.map(|end| accelerator.occluded(ray, end, PrimitiveId::NONE)) }
     }
 
     /// Equal to the last bit.
@@ -42,8 +39,9 @@ pub(crate) struct Difference {
 pub(crate) fn differences<A: Accelerator, B: Accelerator>(a: &A, b: &B, rays: &[Ray]) -> Vec<Difference> {
     rays.par_iter()
         .filter_map(|&ray| {
-            let t = a.intersect(&ray).map_or(1.0, |hit| hit.t);
-            let answers = [Answer::of(a, &ray, t), Answer::of(b, &ray, t)];
+            let hits = [a.intersect(&ray), b.intersect(&ray)];
+            let t = hits[0].map_or(1.0, |hit| hit.t);
+            let answers = [Answer::of(a, &ray, hits[0], t), Answer::of(b, &ray, hits[1], t)];
             (!answers[0].same(&answers[1])).then_some(Difference { ray, answers })
         })
         .collect()

@@ -2,6 +2,7 @@
 
 use super::traverse::Leaf;
 use crate::geometry::{LocalRay, TriangleBlock, TriangleHit, plane_hit};
+use crate::math::{cross32, dot32, subtract32};
 
 /// Blocks decided in f32. Rays may slip through edges; neighbours do not agree on them.
 pub(super) struct FastTriangles<'t> {
@@ -29,7 +30,7 @@ impl<'t> FastTriangles<'t> {
     pub(super) fn hit(&self) -> Option<TriangleHit> {
         let Winner { index, leaf, lane } = self.best?;
         let corners = self.blocks[leaf as usize].corners_of(lane);
-        let (t, u, v) = plane_hit(self.ray.origin64(), self.ray.direction64(), corners)?;
+        let (t, u, v) = plane_hit(self.ray, corners)?;
         Some(TriangleHit { t, index, u, v })
     }
 }
@@ -88,30 +89,15 @@ fn hits(block: &TriangleBlock, ray: &LocalRay, limit: f32) -> (u64, [f32; 8]) {
     for lane in 0..8 {
         let corner = |p: &[[f32; 8]; 3]| [p[0][lane], p[1][lane], p[2][lane]];
         let a = corner(p0);
-        let (e1, e2) = (sub(corner(p1), a), sub(corner(p2), a));
-        let to_origin = sub(o, a);
-        let (p, q) = (cross(d, e2), cross(to_origin, e1));
-        let determinant = dot(e1, p);
+        let (e1, e2) = (subtract32(corner(p1), a), subtract32(corner(p2), a));
+        let to_origin = subtract32(o, a);
+        let (p, q) = (cross32(d, e2), cross32(to_origin, e1));
+        let determinant = dot32(e1, p);
         let sign = if determinant < 0.0 { -1.0 } else { 1.0 };
         let size = determinant * sign;
-        let (u, v, t) = (dot(to_origin, p) * sign, dot(d, q) * sign, dot(e2, q) * sign);
+        let (u, v, t) = (dot32(to_origin, p) * sign, dot32(d, q) * sign, dot32(e2, q) * sign);
         distances[lane] = t / size;
         hit[lane] = (u >= 0.0) & (v >= 0.0) & (u + v <= size) & (t > 0.0) & (distances[lane] <= limit);
     }
     (u64::from_le_bytes(hit.map(u8::from)), distances)
-}
-
-#[inline(always)]
-fn sub(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-#[inline(always)]
-fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-#[inline(always)]
-fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }

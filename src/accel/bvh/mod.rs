@@ -1,8 +1,8 @@
 //! The native accelerator: a tree of boxes, eight children a node, in pure Rust.
 //!
 //! One tree holds the triangles, in blocks of up to eight a leaf; one holds the solids, one a leaf. Both share the
-//! builder ([`build`]), the node ([`node`]) and the traversal ([`traverse`]); only the leaves differ ([`leaf`],
-//! [`fast`]). The boxes and the node test are conservative, the shared leaf decides: so hits are those of
+//! builder (`build`), the node (`node`) and the traversal (`traverse`); only the leaves differ (`leaf`,
+//! `fast`). The boxes and the node test are conservative, the shared leaf decides: so hits are those of
 //! [`super::brute_force::BruteForce`], bit by bit, in every instruction set.
 
 mod build;
@@ -111,14 +111,15 @@ fn triangle_bounds(geometry: &Geometry, index: u32) -> ([f64; 3], [f64; 3]) {
     (a.min(b).min(c).to_array(), a.max(b).max(c).to_array())
 }
 
-/// By how much a box of triangles is widened: 2^-22 of the farthest that a local ray starts.
+/// By how much a box of triangles is widened: 2^-21 of the farthest that a local ray starts.
 ///
-/// The node test itself is conservative ([`NodeRay`]); this is for the leaf. Its edge functions are wrong by a few
+/// The node test itself is conservative ([`NodeRay`]) for the f32 ray. Half of the widening is for the f64 ray, from
+/// which that one strays by 2^-23 of its start and 2^-24 of its way. The other half is for the leaf. Its edge functions are wrong by a few
 /// 2^-53 |edge| |corner - origin|, so it takes rays that pass a triangle's edge at some 2^-50 of the distance, and a
 /// corner whose angle is 2^-24 (the sharpest that f32 corners make, short of none) at 2^-26. The distance it finds is
 /// wrong by as much, over the cosine of the angle to the normal. The rest is for oblique rays at such slivers.
 fn triangle_padding(geometry: &Geometry) -> f64 {
-    geometry.mesh_frame.padding() / 8.0
+    geometry.mesh_frame.padding() / 4.0
 }
 
 fn solid_tree(geometry: &Geometry) -> Tree {

@@ -130,6 +130,9 @@ pub(super) trait Lanes: Copy {
     fn to_array(self, near: Self::Distances) -> [f32; WIDTH];
 
     /// Puts the children in `mask`, three or more, on the stack, the nearest last.
+    ///
+    /// Every instruction set orders by the same keys, the distance without its lowest bits and then the lane, so that
+    /// all visit the same nodes in the same order: the f32 leaf depends on it in the last bits.
     #[inline(always)]
     fn push_sorted(self, node: &Node, mut mask: u32, near: Self::Distances, stack: &mut Stack) {
         let near = self.to_array(near);
@@ -137,7 +140,8 @@ pub(super) trait Lanes: Copy {
         while mask != 0 {
             let lane = mask.trailing_zeros() as usize & 7;
             mask &= mask - 1;
-            stack.push(Entry::new(near[lane], node.children[lane]));
+            let key = near[lane].to_bits() & !LANE_BITS | lane as u32;
+            stack.push(Entry::new(f32::from_bits(key), node.children[lane]));
         }
         stack.sort_from(bottom);
     }

@@ -94,7 +94,8 @@ fn fetch_all<L: Leaf>(nodes: &[Node], node: &Node, leaf: &L, mut mask: u32) {
     }
 }
 
-/// Whether anything is hit; leaves end the search.
+/// Whether anything is hit; leaves end the search. Near children first, like [`closest`]: that was up to a quarter faster
+/// than their order in the node, since what is in the way is often near.
 #[inline(always)]
 pub(super) fn any<L: Leaf, S: Lanes>(nodes: &[Node], ray: &NodeRay, leaf: &L, lanes: S) -> bool {
     let mut stack = Stack::new();
@@ -107,15 +108,9 @@ pub(super) fn any<L: Leaf, S: Lanes>(nodes: &[Node], ray: &NodeRay, leaf: &L, la
             }
         } else {
             let node = &nodes[child.index() as usize];
-            let (mut mask, _) = lanes.enter(node, ray, limit);
+            let (mask, near) = lanes.enter(node, ray, limit);
             if mask != 0 {
-                child = node.children[lowest(mask)];
-                fetch_all(nodes, node, leaf, mask & (mask - 1));
-                mask &= mask - 1;
-                while mask != 0 {
-                    stack.push(Entry::new(0.0, node.children[lowest(mask)]));
-                    mask &= mask - 1;
-                }
+                child = nearest(nodes, node, leaf, mask, near, &mut stack, lanes);
                 continue;
             }
         }

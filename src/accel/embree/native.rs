@@ -47,7 +47,7 @@ impl Query<'_> {
     /// The candidate's hit, if it is in (0, t_max].
     fn hit(&self, triangle: u32) -> Option<TriangleHit> {
         let corners = self.geometry.corners(triangle);
-        let (t, u, v) = plane_hit(self.ray.origin64(), self.ray.direction64(), corners)?;
+        let (t, u, v) = plane_hit(self.ray, corners)?;
         (t > 0.0 && t <= self.ray.t_max).then_some(TriangleHit { t, index: triangle, u, v })
     }
 }

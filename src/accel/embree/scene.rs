@@ -78,7 +78,11 @@ impl Device {
             // SAFETY: without a device this asks why the last rtcNewDevice of this thread failed.
             let code = unsafe { rtcGetDeviceError(ptr::null_mut()) };
             let message = format!("Embree does not start: {}", error_text(code));
-            return Err(if isa.is_some() { Error::Usage(message) } else { Error::Unavailable(message) });
+            return Err(match (code, isa) {
+                (RTC_ERROR_UNSUPPORTED_CPU, Some(_)) => Error::Usage(message),
+                (RTC_ERROR_UNSUPPORTED_CPU, None) => Error::Unavailable(message),
+                _ => Error::Accelerator(message),
+            });
         }
         let device = Device { raw, error: Box::default(), avx2: allows_avx2(isa) };
         let slot = (&raw const *device.error).cast_mut().cast();
@@ -147,7 +151,8 @@ unsafe extern "C" fn record_error(slot: *mut c_void, code: RTCError, text: *cons
         false => unsafe { CStr::from_ptr(text) }.to_string_lossy(),
     };
     let mut error = error.lock().unwrap_or_else(PoisonError::into_inner);
-    error.get_or_insert_with(|| format!("{} ({details})", error_text(code)));
+    let kind = error_text(code);
+    error.get_or_insert_with(|| if details == kind { kind.into() } else { format!("{kind} ({details})") });
 }
 
 /// A geometry that this side holds a reference to.

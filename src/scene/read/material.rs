@@ -48,8 +48,11 @@ pub(super) fn read(value: Value<'_>, report: &mut Report) -> Option<MaterialDesc
     let fields = Fields::open(value, &SECTION, &super::SECTIONS, report)?;
     let name = fields.name(report);
     let choices = TYPES.map(|material| (material.0, material));
-    let kind = fields.require("Type", "Diffuse, Reflective, ClearCoat or Refractive", report);
-    let (type_name, used, read_kind) = kind?.choice(&choices, report)?;
+    let kind = fields.require("Type", "Diffuse, Reflective, ClearCoat or Refractive", report)?;
+    let Some((type_name, used, read_kind)) = kind.choice(&choices, report) else {
+        kind.meant(&choices).and_then(|(_, _, read_kind)| read_kind(&fields, report));
+        return None;
+    };
     fields.warn_unused(&SECTION, used, type_name, report);
     let kind = read_kind(&fields, report)?;
     Some(MaterialDesc { name, kind })

@@ -65,7 +65,10 @@ fn has_keys_of_object(item: Value<'_>) -> bool {
 fn shape(fields: &Fields<'_>, context: &mut Context<'_>) -> Option<ShapeDesc> {
     let choices = TYPES.map(|shape| (shape.0, shape));
     let kind = fields.require("Type", "Ball, Box, Rectangle or TriangleMesh", context.report)?;
-    let (type_name, used, read) = kind.choice(&choices, context.report)?;
+    let Some((type_name, used, read)) = kind.choice(&choices, context.report) else {
+        kind.meant(&choices).and_then(|(_, _, read)| read(fields, context));
+        return None;
+    };
     fields.warn_unused(&SECTION, used, type_name, context.report);
     read(fields, context)
 }

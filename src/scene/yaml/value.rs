@@ -239,6 +239,13 @@ impl<'v> Value<'v> {
         found.map(|(_, choice)| *choice)
     }
 
+    /// The choice that a misspelt name was probably meant to be: what else is wrong can be said by it.
+    pub(crate) fn meant<T: Copy>(&self, choices: &[(&str, T)]) -> Option<T> {
+        let names: Vec<&str> = choices.iter().map(|(name, _)| *name).collect();
+        let near = nearest(self.node.text()?, &names)?;
+        choices.iter().find(|(name, _)| *name == near).map(|(_, choice)| *choice)
+    }
+
     /// A name, which any scalar can be: the scene information prints it as it was understood.
     pub(crate) fn name(&self, report: &mut Report) -> Option<String> {
         match &self.node.kind {

@@ -1,0 +1,48 @@
+//! The geometry routines on any numbers, against double-double arithmetic.
+//!
+//! Seeds are fixed; cases that failed once are in `proptest-regressions` beside the tests and are tried first.
+
+mod frame;
+mod solids;
+mod triangle;
+
+use pathtracer::math::DVec3;
+use proptest::prelude::*;
+use proptest::test_runner::{Config, FileFailurePersistence, RngSeed};
+
+/// The same cases on every run.
+fn config(cases: u32) -> Config {
+    let regressions = FileFailurePersistence::WithSource("regressions");
+    Config {
+        cases,
+        rng_seed: RngSeed::Fixed(17),
+        failure_persistence: Some(Box::new(regressions)),
+        ..Config::default()
+    }
+}
+
+/// A number of either sign and a size of 2^-30 to 2^30, or 0.
+fn number() -> impl Strategy<Value = f64> {
+    let any = (-30.0..30.0f64, any::<bool>())
+        .prop_map(|(exponent, negative)| libm::exp2(exponent) * if negative { -1.0 } else { 1.0 });
+    prop_oneof![9 => any, 1 => Just(0.0)]
+}
+
+/// A size of 2^-30 to 2^30.
+fn size() -> impl Strategy<Value = f64> {
+    (-30.0..30.0f64).prop_map(libm::exp2)
+}
+
+fn point() -> impl Strategy<Value = DVec3> {
+    (number(), number(), number()).prop_map(|(x, y, z)| DVec3::new(x, y, z))
+}
+
+/// A unit vector; often along an axis or nearly so.
+fn direction() -> impl Strategy<Value = DVec3> {
+    let component =
+        || prop_oneof![4 => -1.0..1.0f64, 1 => Just(0.0), 1 => (-30.0..0.0f64).prop_map(libm::exp2)];
+    (component(), component(), component())
+        .prop_map(|(x, y, z)| DVec3::new(x, y, z))
+        .prop_filter("has a direction", |d| d.length() > 1e-6)
+        .prop_map(DVec3::normalize)
+}

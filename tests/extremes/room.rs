@@ -1,0 +1,67 @@
+//! A room with everything in it, for tests of what may not change a picture.
+
+use crate::support::build::*;
+use pathtracer::math::DVec3;
+use pathtracer::scene::desc::{ApertureDesc, MaterialKind, SceneDesc, ShapeDesc};
+
+/// Walls, glass, mirror, clear coat, a box light, a mesh and a lens; lengths are `unit` times dyadic numbers.
+pub(super) fn room(unit: f64) -> SceneDesc {
+    let at = |x: f64, y: f64, z: f64| DVec3::new(x, y, z) * unit;
+    let wall = |position: DVec3, rotation: DVec3, color: DVec3| {
+        let shape = ShapeDesc::Rectangle { position, width: 8.0 * unit, height: 8.0 * unit, rotation };
+        (shape, diffuse(color))
+    };
+    let (white, red, green) = (grey(0.75), DVec3::new(0.75, 0.25, 0.25), DVec3::new(0.25, 0.75, 0.25));
+    let tetrahedron = [[0.5, -1.0, 0.0], [1.25, -0.75, 0.0], [0.75, -0.25, 0.0], [0.75, -0.75, 0.875]];
+    let tetrahedron = mesh(
+        tetrahedron.iter().map(|p| p.map(|x| x * unit)).collect(),
+        vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]],
+    );
+    let coat =
+        MaterialKind::ClearCoat { color: grey(0.5), coat: 0.5, coat_color: grey(0.75), specularity: 0.75 };
+    let glass = MaterialKind::Refractive { color: grey(1.0), ratio: 0.625 };
+    let mirror = MaterialKind::Reflective { color: grey(0.875), specularity: 0.75 };
+    let objects = vec![
+        wall(at(0.0, 0.0, 0.0), DVec3::new(0.0, 90.0, 0.0), white),
+        wall(at(0.0, 0.0, 4.0), DVec3::new(0.0, -90.0, 0.0), white),
+        wall(at(0.0, 4.0, 2.0), DVec3::new(0.0, 0.0, 90.0), red),
+        wall(at(0.0, -4.0, 2.0), DVec3::new(0.0, 0.0, -90.0), green),
+        wall(at(4.0, 0.0, 2.0), DVec3::ZERO, white),
+        (ball(at(0.0, 0.75, 0.5), 0.5 * unit), glass),
+        (ball(at(1.0, 2.0, 0.5), 0.5 * unit), mirror),
+        (cuboid(at(2.0, 0.5, 0.5), at(1.0, 0.5, 1.0), DVec3::new(0.0, 0.0, 30.0)), coat),
+        (tetrahedron, diffuse(white)),
+        (cuboid(at(0.0, 0.0, 3.875), at(1.0, 1.0, 0.25), DVec3::ZERO), glowing(grey(0.25), grey(8.0))),
+    ];
+    let mut desc = scene(at(-3.5, 0.25, 1.5), at(0.0, 0.0, 1.0), objects);
+    desc.camera.fov = 0.375;
+    desc.camera.focus_distance = 4.0 * unit;
+    desc.camera.aperture = ApertureDesc::Radius(0.0625 * unit);
+    desc
+}
+
+/// Changes every position and every length.
+pub(super) fn edit(desc: &mut SceneDesc, point: impl Fn(DVec3) -> DVec3, length: impl Fn(f64) -> f64) {
+    desc.camera.position = point(desc.camera.position);
+    desc.camera.looking_at = point(desc.camera.looking_at);
+    desc.camera.focus_distance = length(desc.camera.focus_distance);
+    if let ApertureDesc::Radius(radius) = &mut desc.camera.aperture {
+        *radius = length(*radius);
+    }
+    for object in &mut desc.objects {
+        match &mut object.shape {
+            ShapeDesc::Ball { position, radius } => {
+                (*position, *radius) = (point(*position), length(*radius));
+            }
+            ShapeDesc::Box { position, size, .. } => {
+                (*position, *size) = (point(*position), size.map(&length));
+            }
+            ShapeDesc::Rectangle { position, width, height, .. } => {
+                (*position, *width, *height) = (point(*position), length(*width), length(*height));
+            }
+            ShapeDesc::TriangleMesh { position, scale, .. } => {
+                (*position, *scale) = (point(*position), length(*scale));
+            }
+        }
+    }
+}

@@ -1,0 +1,69 @@
+//! A picture depends neither on the unit of length nor on where the scene lies.
+
+use super::room::{edit, room};
+use super::{Alone, kinds, picture, rel_mse, small};
+use pathtracer::math::DVec3;
+use pathtracer::render::{Settings, render};
+use pathtracer::world::World;
+
+/// Powers of two that leave every number of the room in range.
+const EXPONENTS: [i32; 12] = [-100, -40, -30, -20, -10, -1, 1, 10, 20, 30, 40, 100];
+
+#[test]
+fn lengths_times_a_power_of_two_change_no_bit() {
+    for accel in kinds() {
+        let settings = Settings { accel, ..small(32, 24, 8, 8) };
+        let expected = picture(&room(1.0), &settings);
+        for exponent in EXPONENTS {
+            let mut desc = room(1.0);
+            let factor = libm::ldexp(1.0, exponent);
+            edit(&mut desc, |p| p * factor, |l| l * factor);
+            assert!(picture(&desc, &settings) == expected, "{accel:?} 2^{exponent}");
+        }
+    }
+}
+
+/// Beyond the range of numbers there is an error, never another picture.
+#[test]
+fn lengths_beyond_the_range_of_numbers_are_refused_or_change_no_bit() {
+    let settings = small(16, 12, 2, 6);
+    let expected = picture(&room(1.0), &settings);
+    for exponent in (-1000..=1000).step_by(50) {
+        let mut desc = room(1.0);
+        let factor = libm::ldexp(1.0, exponent);
+        edit(&mut desc, |p| p * factor, |l| l * factor);
+        if let Ok(world) = World::compile(&desc) {
+            let rendered = render(&world, &desc.camera, &settings, &Alone).expect("a render");
+            let pixels: Vec<DVec3> = rendered.film.means().collect();
+            assert!(pixels == expected, "2^{exponent}");
+        }
+    }
+}
+
+#[test]
+fn a_dyadic_translation_changes_no_bit() {
+    let offset = DVec3::new(8_388_608.0, -4_194_304.0, 1_048_576.0);
+    for accel in kinds() {
+        let settings = Settings { accel, ..small(32, 24, 8, 8) };
+        let mut desc = room(1.0);
+        edit(&mut desc, |p| p + offset, |l| l);
+        assert!(picture(&desc, &settings) == picture(&room(1.0), &settings), "{accel:?}");
+    }
+}
+
+/// At 1e7 the last digit of a coordinate is 2e-9: positions change by 1e-9, and with them a few in 1e9 of the paths.
+#[test]
+fn a_decimal_scene_at_1e7_renders_as_at_the_origin() {
+    let unit = 0.7;
+    let reference = room(unit);
+    for accel in kinds() {
+        let settings = Settings { accel, ..small(64, 48, 16, 6) };
+        let expected = picture(&reference, &settings);
+        for offset in [DVec3::splat(1e7), DVec3::new(-1e7, 1e7 / 3.0, 1e6), DVec3::new(0.1, 1e7, 0.3)] {
+            let mut desc = reference.clone();
+            edit(&mut desc, |p| p + offset, |l| l);
+            let error = rel_mse(&picture(&desc, &settings), &expected);
+            assert!(error < 1e-6, "{accel:?} at {offset}: relMSE {error:e}");
+        }
+    }
+}
