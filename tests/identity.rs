@@ -1,12 +1,13 @@
 //! The same bytes in the file: whatever the threads, the tiles and the order of the work; at exact whatever the
 //! accelerator and the instructions. Every sample scene is rendered, small; the long version is behind `--ignored`.
 
+use crate::support::watch::Unwatched;
 use pathtracer::accel::bvh::Bvh;
 use pathtracer::accel::{BuildOptions, Isa, Precision};
 use pathtracer::geometry::Geometry;
 use pathtracer::output;
 use pathtracer::picture::Destination;
-use pathtracer::render::{AccelKind, Progress, Settings, Watch, render};
+use pathtracer::render::{AccelKind, Settings, render};
 use pathtracer::scene::{self, desc::CameraDesc};
 use pathtracer::world::World;
 use std::path::Path;
@@ -23,16 +24,6 @@ const MANY: u64 = 64;
 
 const ACCELERATORS: &[AccelKind] =
     if cfg!(feature = "embree") { &[AccelKind::Embree, AccelKind::Native] } else { &[AccelKind::Native] };
-
-struct Unwatched;
-
-impl Watch for Unwatched {
-    fn progress(&self, _: &Progress) {}
-
-    fn cancelled(&self) -> bool {
-        false
-    }
-}
 
 /// A sample scene and a folder for its pictures.
 struct Subject {

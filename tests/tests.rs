@@ -35,11 +35,11 @@ mod lights;
 /// Light transport against closed forms: furnaces, lights of every shape, the sky.
 mod transport;
 
-/// Numerical stability: sizes, places, gaps, ties and rays at the extremes.
-mod extremes;
-
 /// Whole pictures against references of another renderer, block by block.
 mod golden;
+
+/// Numerical stability: sizes, places, gaps, ties and rays at the extremes.
+mod extremes;
 
 /// The sums: the tree of chunks.
 mod film;

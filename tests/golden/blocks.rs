@@ -1,12 +1,11 @@
 //! Pictures as means of blocks of 8 x 8 pixels with their errors, and what two of them say about each other.
 
-use crate::support::stats::two_sided_tail;
 use pathtracer::math::Rgb;
 
 /// Side of a picture in pixels.
 pub(super) const SIDE: usize = 512;
 /// Side of a block in pixels.
-const BLOCK: usize = 8;
+pub(super) const BLOCK: usize = 8;
 /// Blocks in a row.
 pub(super) const BLOCKS: usize = SIDE / BLOCK;
 
@@ -49,59 +48,48 @@ fn block_of(pixel: usize) -> usize {
     pixel / SIDE / BLOCK * BLOCKS + pixel % SIDE / BLOCK
 }
 
-/// Means of the blocks of one picture.
-pub(super) fn block_means(pixels: impl Iterator<Item = Rgb>) -> Channels {
+/// Of the blocks of one picture: means, and variances of the pixels within the block.
+pub(super) fn within_blocks(pixels: &[Rgb]) -> (Channels, Channels) {
+    let size = (BLOCK * BLOCK) as f64;
     let mut mean = vec![0.0; BLOCKS * BLOCKS * 3];
-    for (pixel, value) in pixels.enumerate() {
-        for channel in 0..3 {
-            mean[block_of(pixel) * 3 + channel] += value[channel] / (BLOCK * BLOCK) as f64;
-        }
-    }
-    mean
+    let mut variance = mean.clone();
+    let each = || (0..SIDE * SIDE * 3).map(|i| (block_of(i / 3) * 3 + i % 3, pixels[i / 3][i % 3]));
+    each().for_each(|(at, value)| mean[at] += value / size);
+    each().for_each(|(at, value)| variance[at] += (value - mean[at]) * (value - mean[at]) / (size - 1.0));
+    (mean, variance)
 }
 
 /// What separates a picture from its reference.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Verdict {
-    /// The factor, less 1, that fits the picture to the reference best, and its standard error.
-    pub(super) scale: f64,
-    pub(super) scale_error: f64,
-    /// Mean of the squares of the blocks' z: 1 where nothing but noise separates the two.
-    pub(super) chi2: f64,
+    /// Mean of the picture over that of the reference, less 1, and its standard error.
+    pub(super) bias: f64,
+    pub(super) bias_error: f64,
     /// Shares of the blocks' z beyond 3 and beyond 4.
     pub(super) beyond: [f64; 2],
-    /// The largest |z|.
-    pub(super) worst: f64,
 }
 
 impl Verdict {
-    /// The scale is weighed by the reference and its errors, never by the picture's own variances: blocks that happen to
-    /// lack their rare bright samples have small ones, and would pull the scale down.
+    /// z is taken with the larger of two variances of the picture: its own, and the reference's times the ratio of both
+    /// over the whole picture. A block that happens to lack its rare bright samples has a small variance of its own.
     pub(super) fn of(picture: &Blocks, reference: &Blocks) -> Verdict {
-        let (mut difference, mut weight, mut variance) = (0.0, 0.0, 0.0);
-        let mut z = Vec::new();
-        for i in 0..picture.mean.len() {
-            let (expected, own) = (reference.mean[i], reference.variance[i]);
-            let (off, both) = (picture.mean[i] - expected, picture.variance[i] + own);
-            if both == 0.0 {
-                assert!(off.abs() <= 1e-6 * expected, "a block without noise that is {off} off");
-                continue;
-            }
-            z.push(off / both.sqrt());
-            if own > 0.0 {
-                let w = expected / own;
-                difference += w * off;
-                weight += w * expected;
-                variance += w * w * both;
-            }
+        let sum = |values: &Channels| values.iter().sum::<f64>();
+        let ratio = sum(&picture.variance) / sum(&reference.variance);
+        let (mut z, mut variance) = (Vec::new(), 0.0);
+        for (i, &of_reference) in reference.variance.iter().enumerate() {
+            let own = picture.variance[i];
+            variance += own + of_reference;
+            let error = (own.max(ratio * of_reference) + of_reference).sqrt();
+            let off = picture.mean[i] - reference.mean[i];
+            // Black in both: nothing to compare.
+            z.push(if off == 0.0 { 0.0 } else { off / error });
         }
         let share = |limit: f64| z.iter().filter(|z| z.abs() > limit).count() as f64 / z.len() as f64;
+        let total = sum(&reference.mean);
         Verdict {
-            scale: difference / weight,
-            scale_error: variance.sqrt() / weight,
-            chi2: z.iter().map(|z| z * z).sum::<f64>() / z.len() as f64,
+            bias: sum(&picture.mean) / total - 1.0,
+            bias_error: variance.sqrt() / total,
             beyond: [share(3.0), share(4.0)],
-            worst: z.iter().fold(0.0, |worst, z| worst.max(z.abs())),
         }
     }
 }

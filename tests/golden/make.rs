@@ -1,6 +1,6 @@
 //! Makes the files of this folder from references of full size.
 
-use super::blocks::{BLOCKS, Blocks, SIDE, block_means};
+use super::blocks::{BLOCK, BLOCKS, Blocks, Channels, within_blocks};
 use super::{Golden, SCENES, pixels_of};
 use pathtracer::math::Rgb;
 use pathtracer::picture::{Destination, Pixels};
@@ -17,23 +17,37 @@ fn make_references() {
     let noise = std::fs::read_to_string(folder.join("refs.json")).expect("refs.json");
     let noise: serde_json::Value = serde_json::from_str(&noise).expect("JSON");
     for golden in SCENES {
-        let mean = block_means(pixels_of(&folder.join(format!("{}_ref.exr", golden.name))).into_iter());
+        let reference = pixels_of(&folder.join(format!("{}_ref.exr", golden.name)));
         let mse = noise[golden.name]["mse"].as_f64().expect("a mean squared error");
-        let error = standard_errors(&golden, mse);
-        write(&golden.file("mean.exr"), &mean);
-        write(&golden.file("error.exr"), &error);
+        write(&golden.file("_mean.exr"), &within_blocks(&reference).0);
+        write(&golden.file("_error.exr"), &standard_errors(&golden, &reference, mse));
     }
 }
 
-/// The shape of our own variance, scaled to the reference's mean squared error.
-fn standard_errors(golden: &Golden, mse: f64) -> Vec<f64> {
+/// The standard errors of a reference's blocks.
+///
+/// Most have the shape of our own variance, scaled so that its mean is the reference's mean squared error. But where its
+/// renderer is noisy and ours is not (it samples the constant sky of B, which is exact for us), the differences between
+/// its pixels and ours are its noise. And no mean of f32 sums is better than a few roundings.
+fn standard_errors(golden: &Golden, reference: &[Rgb], mse: f64) -> Channels {
     let seeds = 1000..1016;
     let renders: Vec<Vec<Rgb>> =
         seeds.map(|seed| golden.render(golden.bounces, seed, 8, SamplerKind::Independent)).collect();
-    let own = Blocks::of_renders(&renders).variance;
-    let mean = own.iter().sum::<f64>() / own.len() as f64;
-    let of_block = mse / ((SIDE / BLOCKS) * (SIDE / BLOCKS)) as f64;
-    own.iter().map(|variance| (variance / mean * of_block).sqrt()).collect()
+    let own = Blocks::of_renders(&renders);
+    let pixels = (BLOCK * BLOCK) as f64;
+    let scale = mse / pixels / (own.variance.iter().sum::<f64>() / own.variance.len() as f64);
+    let average =
+        |pixel: usize| renders.iter().map(|render| render[pixel]).sum::<Rgb>() / renders.len() as f64;
+    let residual: Vec<Rgb> = reference.iter().enumerate().map(|(i, &value)| value - average(i)).collect();
+    let (_, residual) = within_blocks(&residual);
+    (0..own.mean.len())
+        .map(|i| {
+            let seen = residual[i] / pixels;
+            let shape = own.variance[i] * scale;
+            let variance = if own.variance[i] < 0.25 * seen { shape.max(seen) } else { shape };
+            variance.sqrt().max(own.mean[i] / 262_144.0)
+        })
+        .collect()
 }
 
 fn write(path: &Path, channels: &[f64]) {

@@ -6,7 +6,7 @@ use pathtracer::scene::desc::{EnvironmentDesc, ShapeDesc};
 use std::f64::consts::PI;
 
 /// The white floor at z = 0, seen at the origin from the side.
-pub(super) fn lit_floor(light: ShapeDesc, radiance: f64) -> pathtracer::scene::desc::SceneDesc {
+fn lit_floor(light: ShapeDesc, radiance: f64) -> pathtracer::scene::desc::SceneDesc {
     let floor = square(DVec3::ZERO, 1e-3);
     let objects = vec![(floor, diffuse(grey(1.0))), (light, glowing(grey(0.0), grey(radiance)))];
     scene(DVec3::new(-1e-4, 0.0, 1e-4), DVec3::ZERO, objects)
@@ -14,7 +14,7 @@ pub(super) fn lit_floor(light: ShapeDesc, radiance: f64) -> pathtracer::scene::d
 
 /// Reflected radiance of a white Lambertian patch with normal +z at the origin, from a polygon above the horizon that
 /// emits 1 (Lambert's formula: 1 / 2 pi times the sum of the edges' angles times the cosines of their planes).
-pub(super) fn polygon(corners: &[DVec3]) -> f64 {
+fn polygon(corners: &[DVec3]) -> f64 {
     let sum: f64 = (0..corners.len())
         .map(|i| {
             let (a, b) = (corners[i], corners[(i + 1) % corners.len()]);
@@ -24,7 +24,7 @@ pub(super) fn polygon(corners: &[DVec3]) -> f64 {
     sum.abs() / (2.0 * PI)
 }
 
-pub(super) const TWO_SEGMENTS: Measure = Measure { samples: 100_000, bounces: 2, light_sampling: true };
+const TWO_SEGMENTS: Measure = Measure { samples: 100_000, bounces: 2, light_sampling: true };
 
 #[test]
 fn balls_of_every_solid_angle_light_a_floor() {

@@ -1,6 +1,5 @@
 //! The closed forms at standard errors of 1e-3 and 1e-4, with as many samples as that takes: behind `--ignored`.
 
-use super::direct::lit_floor;
 use super::furnace::{EYE, convex_shapes, opaque_white};
 use crate::support::build::*;
 use crate::support::stats::Moments;
@@ -57,18 +56,4 @@ fn white_furnaces_with_light_sampling_to_a_standard_error_of_1e_3() {
             assert_narrow(&format!("{kind:?}"), &desc, 8, true, 1.0, 1e-3);
         }
     }
-}
-
-#[test]
-#[ignore = "minutes"]
-fn ball_lights_to_a_standard_error_of_1e_3() {
-    for ratio in [0.99, 0.1, 1e-3, 1e-5, 1e-7] {
-        let desc = lit_floor(ball(DVec3::Z, ratio), 1.0 / (ratio * ratio));
-        assert_narrow(&format!("r/d {ratio}"), &desc, 2, true, 1.0, 1e-3);
-    }
-    let distance = 1.0 + 1e-6;
-    let desc = lit_floor(ball(DVec3::Z * distance, 1.0), 2.0);
-    assert_narrow("just outside", &desc, 2, true, 2.0 / (distance * distance), 1e-3);
-    let desc = lit_floor(ball(DVec3::Z * 0.5, 1.0), 2.0);
-    assert_narrow("inside", &desc, 2, true, 2.0, 1e-3);
 }

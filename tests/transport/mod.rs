@@ -7,4 +7,3 @@ mod furnace;
 mod invariance;
 mod long;
 mod rays;
-mod solid_angles;
