@@ -45,7 +45,8 @@ pub const CHUNK: u32 = 16;
 ///
 /// That mean is taken where a chunk's passes begin (at 8, 16, 32 ... samples of a chunk), and only from
 /// [`FIREFLY_BEFORE`] samples on that are not all black; so of a chunk of 16 samples the second half is judged. It is a
-/// ratio: the scale of the lights does not matter. Fireflies stay in the picture.
+/// ratio: the scale of the lights does not matter. Fireflies stay in the picture;
+/// with a limit, samples are judged as they are limited.
 pub const FIREFLY: f64 = 100.0;
 /// The fewest samples of a pixel and chunk by which others are judged to be fireflies.
 pub const FIREFLY_BEFORE: u64 = 8;

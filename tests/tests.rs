@@ -37,5 +37,8 @@ mod film;
 /// Chunks, tiles, threads, stopping.
 mod render;
 
+/// What is counted about the samples: fireflies, the limit and what it takes.
+mod counters;
+
 /// The program from outside.
 mod cli;

@@ -49,10 +49,10 @@ fn notes(rendered: &Rendered) -> Vec<String> {
         (counters.clamped, rendered.clamp, rendered.clamp_removed(), rendered.clamp_bias())
     {
         notes.push(format!(
-            "note: {} samples were clamped to {limit}: the picture's mean is {} too low, {} % of it",
+            "note: {} samples were clamped to {limit}, which took {} % of the light: {} off the picture's mean",
             counters.clamped,
-            number(removed),
-            percent(bias)
+            percent(bias),
+            number(removed)
         ));
     }
     notes

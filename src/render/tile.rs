@@ -83,12 +83,12 @@ impl Pass {
             counters.dropped += 1;
             return Rgb::ZERO;
         }
-        let largest = radiance.max_element();
-        counters.fireflies += u64::from(largest > firefly);
-        match self.clamp {
-            Some(limit) if largest > limit => clamp(radiance, limit, counters),
+        let added = match self.clamp {
+            Some(limit) if radiance.max_element() > limit => clamp(radiance, limit, counters),
             _ => radiance,
-        }
+        };
+        counters.fireflies += u64::from(added.max_element() > firefly);
+        added
     }
 }
 
