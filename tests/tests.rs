@@ -49,5 +49,8 @@ mod render;
 /// The same bytes for all threads, tiles, accelerators and instruction sets, on every sample scene.
 mod identity;
 
+/// What is counted about the samples: fireflies, the limit and what it takes.
+mod counters;
+
 /// The program from outside.
 mod cli;
