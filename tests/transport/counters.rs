@@ -150,3 +150,15 @@ fn a_hit_within_the_error_bound_of_the_origin_is_a_self_hit() {
         assert_eq!(counters.self_hits, expected, "{t}");
     }
 }
+
+#[test]
+fn the_far_side_of_a_body_is_no_self_hit_however_near() {
+    let near = |ray: &Ray, hit: Option<Hit>| {
+        let t = if ray.inward { f64::MIN_POSITIVE } else { f64::INFINITY };
+        hit.map(|hit| Hit { t: hit.t.min(t), ..hit })
+    };
+    let kind = MaterialKind::Refractive { color: grey(1.0), ratio: 0.67 };
+    let (_, counters) = trace(&under_sky(ball(DVec3::ZERO, 1.0), kind), 2, None, near);
+    assert!(counters.cut_paths > 0);
+    assert_eq!(counters.self_hits, 0);
+}
