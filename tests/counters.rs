@@ -95,14 +95,16 @@ fn what_the_limit_made_of_a_sample_is_judged() {
 
 #[test]
 fn tiles_and_threads_do_not_change_what_is_counted() {
-    let expected = run(&clamped(40), spread);
-    assert!(expected.counters.fireflies > 0 && expected.counters.clamped > 0);
+    let (free, limited) = (run(&small(40), spread), run(&clamped(40), spread));
+    assert!(free.counters.fireflies > 0 && limited.counters.clamped > 0);
     for threads in [1, 2, 8] {
         for tile in [None, Some(1), Some(8), Some(64)] {
-            let rendered = run(&Settings { threads: Some(threads), tile, ..clamped(40) }, spread);
-            assert_eq!(rendered.counters, expected.counters);
-            assert_eq!(rendered.clamp_bias(), expected.clamp_bias());
-            assert_eq!(rendered.film, expected.film);
+            for (settings, expected) in [(small(40), &free), (clamped(40), &limited)] {
+                let rendered = run(&Settings { threads: Some(threads), tile, ..settings }, spread);
+                assert_eq!(rendered.counters, expected.counters);
+                assert_eq!(rendered.clamp_bias(), expected.clamp_bias());
+                assert_eq!(rendered.film, expected.film);
+            }
         }
     }
 }

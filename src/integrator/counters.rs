@@ -11,8 +11,9 @@ pub struct Counters {
     pub dropped: u64,
     /// Rays with a number that is not finite: they hit nothing, see no sky and bring no light.
     pub refused: u64,
-    /// Closest hits of paths that are no other surface: on the primitive that the ray left without going into it, or no
-    /// farther from the ray's origin than that was moved off its surface (the error bound of the point).
+    /// Closest hits of paths that can't be told from the surface that the ray left: on the same primitive though the ray
+    /// did not go into it (into a body it meets the far side, however near), or on another one no farther from the
+    /// ray's origin than that was moved off its surface (the error bound of the point). Shadow rays don't know theirs.
     pub self_hits: u64,
     /// Paths that met a surface with their last segment and would have gone on.
     pub cut_paths: u64,

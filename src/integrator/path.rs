@@ -205,7 +205,7 @@ impl<'a, A: Accelerator> PathTracer<'a, A> {
 impl<S> Path<'_, S> {
     /// Whether a hit is the surface that the ray left, as far as can be told: see [`Counters::self_hits`].
     fn meets_itself(&self, hit: &Hit) -> bool {
-        hit.t <= self.offset || (hit.primitive == self.ray.leaving && !self.ray.inward)
+        if hit.primitive == self.ray.leaving { !self.ray.inward } else { hit.t <= self.offset }
     }
 }
 
