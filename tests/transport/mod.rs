@@ -5,5 +5,5 @@ mod camera;
 mod direct;
 mod furnace;
 mod invariance;
-mod long;
+mod narrow;
 mod rays;

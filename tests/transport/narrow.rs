@@ -1,4 +1,4 @@
-//! The closed forms at standard errors of 1e-3 and 1e-4, with as many samples as that takes: behind `--ignored`.
+//! Furnaces at standard errors of 1e-3 and 1e-4, with as many samples as that takes.
 
 use super::furnace::{EYE, convex_shapes, opaque_white};
 use crate::support::build::*;
@@ -6,7 +6,7 @@ use crate::support::stats::Moments;
 use pathtracer::math::DVec3;
 use pathtracer::scene::desc::SceneDesc;
 
-/// [`assert_mean`] with the samples that a pilot of other paths' length finds necessary, and half as many again.
+/// [`assert_mean`] with the samples that a pilot finds necessary, and half as many again.
 fn assert_narrow(
     what: &str,
     desc: &SceneDesc,
@@ -45,7 +45,6 @@ fn closed_furnaces_to_a_standard_error_of_1e_4() {
 }
 
 #[test]
-#[ignore = "minutes"]
 fn white_furnaces_with_light_sampling_to_a_standard_error_of_1e_3() {
     for shape in convex_shapes() {
         for kind in opaque_white() {
