@@ -77,17 +77,3 @@ fn closed_furnaces_reach_one_minus_the_cut_rest() {
         }
     }
 }
-
-#[test]
-fn a_white_furnace_with_light_sampling_has_mean_one() {
-    let measure = Measure { samples: 40_000, bounces: 8, light_sampling: true };
-    for shape in convex_shapes() {
-        for kind in opaque_white() {
-            let mut desc = scene(EYE, DVec3::ZERO, vec![(shape.clone(), kind.clone())]);
-            desc.environment = sky(1.0);
-            // Not constant to the program: a gradient by a last bit, so that the sky is sampled.
-            desc.environment.sky = grey(1.0 + 1e-15);
-            assert_mean(&format!("{kind:?}"), &desc, &measure, 1.0, 2e-2);
-        }
-    }
-}

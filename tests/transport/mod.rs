@@ -6,5 +6,5 @@ mod counters;
 mod direct;
 mod furnace;
 mod invariance;
-mod long;
+mod narrow;
 mod rays;
