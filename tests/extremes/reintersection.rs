@@ -148,7 +148,7 @@ fn inward_start(shape: &Shape, random: &mut Random) -> (DVec3, DVec3) {
         Shape::Cuboid(cuboid) => {
             let face = random.index(6);
             let mut p = random.in_cube();
-            p[face / 2] = if face % 2 == 0 { -1.0 } else { 1.0 };
+            p[face / 2] = if face.is_multiple_of(2) { -1.0 } else { 1.0 };
             if random.unit() < 0.5 {
                 let along = random.index(3);
                 p = DVec3::select(DVec3::splat(along as f64).cmpeq(DVec3::new(0.0, 1.0, 2.0)), p, p.signum());
