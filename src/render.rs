@@ -5,6 +5,7 @@
 //! threads can be seen in the sums.
 
 mod memory;
+mod report;
 mod tile;
 
 pub use memory::film_bytes;
@@ -26,7 +27,7 @@ use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
-use tile::Tile;
+use tile::{Pass, Tile};
 
 /// The widest and highest picture, in pixels.
 pub const MAX_SIDE: u32 = 65_536;
@@ -39,6 +40,16 @@ pub const MAX_THREADS: usize = 1024;
 /// Samples a pixel in a chunk, unless set otherwise: few enough that stopping loses little, enough that waiting for
 /// the last tile of a chunk costs little.
 pub const CHUNK: u32 = 16;
+/// A sample is a firefly if its largest component is more than so many times that of the mean of the samples before it
+/// in its pixel and chunk.
+///
+/// That mean is taken where a chunk's passes begin (at 8, 16, 32 ... samples of a chunk), and only from
+/// [`FIREFLY_BEFORE`] samples on that are not all black; so of a chunk of 16 samples the second half is judged. It is a
+/// ratio: the scale of the lights does not matter. Fireflies stay in the picture;
+/// with a limit, samples are judged as they are limited.
+pub const FIREFLY: f64 = 100.0;
+/// The fewest samples of a pixel and chunk by which others are judged to be fireflies.
+pub const FIREFLY_BEFORE: u64 = 8;
 
 /// The implementations of [`Accelerator`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -85,6 +96,9 @@ pub struct Settings {
     pub sampler: SamplerKind,
     /// Whether lights are sampled; without, they are only found by chance.
     pub light_sampling: bool,
+    /// The most that a component of a sample's radiance may be, > 0 and finite, or `None` for no limit. A limit makes
+    /// the picture too dark, by [`Rendered::clamp_removed`].
+    pub clamp: Option<f64>,
 }
 
 impl Settings {
@@ -104,6 +118,7 @@ impl Settings {
             seed: 0,
             sampler: SamplerKind::default(),
             light_sampling: true,
+            clamp: None,
         }
     }
 
@@ -129,6 +144,9 @@ impl Settings {
         if let Some((name, value, most)) = ranges.iter().find(|(_, value, most)| !(1..=*most).contains(value))
         {
             return Err(Error::Usage(format!("{name} must be from 1 to {most}, not {value}")));
+        }
+        if let Some(limit) = self.clamp.filter(|limit| !(limit.is_finite() && *limit > 0.0)) {
+            return Err(Error::Usage(format!("clamp must be a finite number > 0, not {limit}")));
         }
         if self.accel == AccelKind::Embree && !cfg!(feature = "embree") {
             return Err(no_embree());
@@ -178,6 +196,8 @@ pub struct Rendered {
     /// What was counted for the samples that the film holds. Dropped samples, which were not finite or negative, count
     /// as black, so that all pixels have the same number of samples; there should be none.
     pub counters: Counters,
+    /// The limit of the samples' components.
+    pub clamp: Option<f64>,
     /// Whether it was stopped before all samples were taken.
     pub cancelled: bool,
     /// Seconds to build the accelerator.
@@ -270,7 +290,8 @@ where
         }
     }
     let render_seconds = start.elapsed().as_secs_f64();
-    Ok(Rendered { film, counters, cancelled, build_seconds: 0.0, render_seconds })
+    let clamp = settings.clamp;
+    Ok(Rendered { film, counters, clamp, cancelled, build_seconds: 0.0, render_seconds })
 }
 
 /// What the passes of a render share.
@@ -294,7 +315,8 @@ where
         while next < samples.end {
             let taken = next - samples.start;
             let end = samples.end.min(next + taken.max(1));
-            let Some(counted) = self.pass(next..end, &mut sums) else {
+            let pass = Pass { samples: next..end, before: taken, clamp: self.settings.clamp };
+            let Some(counted) = self.pass(&pass, &mut sums) else {
                 return Ok((taken, complete));
             };
             *counters += counted;
@@ -307,13 +329,13 @@ where
     }
 
     /// Adds samples to all pixels; `None` if cancelled, which leaves the sums unusable.
-    fn pass(&self, samples: Range<u64>, sums: &mut [Rgb]) -> Option<Counters> {
-        let count = samples.end - samples.start;
+    fn pass(&self, pass: &Pass, sums: &mut [Rgb]) -> Option<Counters> {
+        let count = pass.samples.end - pass.samples.start;
         tile::split(sums, self.settings.width, self.settings.tile_side())
             .into_par_iter()
             .with_max_len(1)
             .map(|mut tile: Tile<'_>| {
-                let counters = tile.sum(samples.clone(), &self.sample, || self.watch.cancelled())?;
+                let counters = tile.sum(pass, &self.sample, || self.watch.cancelled())?;
                 self.watch.progress(&self.meter.add(tile.pixels() * count, counters.rays));
                 Some(counters)
             })

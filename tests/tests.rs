@@ -21,6 +21,9 @@ mod accel;
 /// Embree: the oracle's hits at exact, the promises of robust and fast, refusals.
 #[cfg(feature = "embree")]
 mod embree;
+/// Robust: where Embree and the native accelerator disagree, and why they may.
+#[cfg(feature = "embree")]
+mod embree_agreement;
 
 /// Every lobe against its density, its colour, its limits.
 mod material;
@@ -32,6 +35,9 @@ mod lights;
 /// Light transport against closed forms: furnaces, lights of every shape, the sky.
 mod transport;
 
+/// Whole pictures against references of another renderer, block by block.
+mod golden;
+
 /// Numerical stability: sizes, places, gaps, ties and rays at the extremes.
 mod extremes;
 
@@ -39,6 +45,12 @@ mod extremes;
 mod film;
 /// Chunks, tiles, threads, stopping.
 mod render;
+
+/// The same bytes for all threads, tiles, accelerators and instruction sets, on every sample scene.
+mod identity;
+
+/// What is counted about the samples: fireflies, the limit and what it takes.
+mod counters;
 
 /// The program from outside.
 mod cli;

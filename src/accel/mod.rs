@@ -14,10 +14,11 @@ use crate::geometry::{Geometry, Hit, LocalFrame, LocalRay, PrimitiveId, Ray, Tri
 /// How hits of mesh triangles are found. Solids are exact at every precision.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Precision {
-    /// The shared leaf decides: watertight, the same bits from every accelerator.
+    /// The shared leaf decides: watertight, the same bits from every accelerator. The default, as it costs whole renders
+    /// next to nothing.
+    #[default]
     Exact,
     /// The accelerator's own watertight kernel; accelerators differ on ties and edges only.
-    #[default]
     Robust,
     /// The accelerator's fastest kernel; rays may slip through edges.
     Fast,

@@ -91,7 +91,7 @@ pub(super) struct RenderArguments {
     /// What finds hits [default: embree where compiled in]
     #[arg(long, value_name = "NAME", value_parser = choice(&ACCELS))]
     accel: Option<AccelKind>,
-    /// How hits of triangles are found [default: robust]
+    /// How hits of triangles are found [default: exact]
     #[arg(long, value_name = "NAME", value_parser = choice(&PRECISIONS))]
     precision: Option<Precision>,
     /// Most instructions to use [default: the machine's best]
@@ -112,6 +112,9 @@ pub(super) struct RenderArguments {
     /// Whether lights are sampled [default: on]
     #[arg(long, value_name = "on|off", value_parser = choice(&SWITCH))]
     light_sampling: Option<bool>,
+    /// Most that a component of a sample's radiance may be; takes light away and says how much [default: no limit]
+    #[arg(long, value_name = "X", allow_negative_numbers = true, value_parser = positive)]
+    clamp: Option<f64>,
     /// Brightness of a PNG in stops, -100 to 100
     #[arg(long, value_name = "STOPS", allow_negative_numbers = true, default_value = "0", value_parser = stops)]
     exposure: f64,
@@ -180,6 +183,7 @@ impl RenderArguments {
             seed: self.seed,
             sampler: self.sampler.unwrap_or(defaults.sampler),
             light_sampling: self.light_sampling.unwrap_or(defaults.light_sampling),
+            clamp: self.clamp,
             ..defaults
         };
         Ok(Job { scene, image, settings, exposure: self.exposure, quiet: self.quiet, json: self.json })
@@ -243,6 +247,11 @@ fn whole(most: u64) -> impl Fn(&str) -> Result<u64, String> + Clone {
         let number = text.parse().ok().filter(|number| (1..=most).contains(number));
         number.ok_or_else(|| format!("expected a whole number from 1 to {most}"))
     }
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|number: &f64| number.is_finite() && *number > 0.0);
+    number.ok_or_else(|| "expected a finite number > 0".to_owned())
 }
 
 fn stops(text: &str) -> Result<f64, String> {

@@ -28,7 +28,7 @@ pub(super) enum Event<'e> {
     Error { code: u8, message: String, diagnostics: Vec<DiagnosticRecord> },
 }
 
-/// The settings of a render. `isa` is null for the machine's best.
+/// The settings of a render. `isa` is null for the machine's best, `clamp` for no limit.
 #[derive(Debug, Serialize)]
 pub(super) struct JobRecord {
     version: &'static str,
@@ -47,6 +47,7 @@ pub(super) struct JobRecord {
     seed: u64,
     sampler: &'static str,
     light_sampling: bool,
+    clamp: Option<f64>,
     exposure: f64,
 }
 
@@ -58,12 +59,30 @@ pub(super) struct Summary<'e> {
     requires: &'e Requires,
     /// Samples per pixel in the picture.
     samples_taken: u64,
-    dropped_samples: u64,
+    #[serde(flatten)]
+    counts: Counts,
     rays: u64,
     #[serde(flatten)]
     seconds: Seconds,
     samples_per_second: f64,
     rays_per_second: f64,
+}
+
+/// What was odd about the samples of a picture.
+#[derive(Debug, Serialize)]
+struct Counts {
+    dropped_samples: u64,
+    refused_rays: u64,
+    self_hits: u64,
+    cut_paths: u64,
+    /// Share of the samples' throughput that arrived with the last segment, 0 to 1.
+    cut_throughput: f64,
+    fireflies: u64,
+    clamped_samples: u64,
+    /// Off the picture's mean, in units of radiance; null without a limit.
+    clamp_removed: Option<f64>,
+    /// Share of the unclamped picture's light, 0 to 1; null without a limit.
+    clamp_bias: Option<f64>,
 }
 
 /// What the parts of a run took.
@@ -114,6 +133,7 @@ impl JobRecord {
             seed: settings.seed,
             sampler: settings.sampler.name(),
             light_sampling: settings.light_sampling,
+            clamp: settings.clamp,
             exposure: job.exposure,
         }
     }
@@ -127,16 +147,32 @@ impl<'e> Summary<'e> {
         seconds: Seconds,
     ) -> Summary<'e> {
         let Rendered { film, counters, .. } = rendered;
-        let pixels = f64::from(film.width()) * f64::from(film.height());
         Summary {
             job: JobRecord::new(job),
             requires,
             samples_taken: film.samples(),
-            dropped_samples: counters.dropped,
+            counts: Counts::new(rendered),
             rays: counters.rays,
             seconds,
-            samples_per_second: per_second(pixels * film.samples() as f64, seconds.render),
+            samples_per_second: per_second(rendered.samples(), seconds.render),
             rays_per_second: per_second(counters.rays as f64, seconds.render),
+        }
+    }
+}
+
+impl Counts {
+    fn new(rendered: &Rendered) -> Counts {
+        let counters = &rendered.counters;
+        Counts {
+            dropped_samples: counters.dropped,
+            refused_rays: counters.refused,
+            self_hits: counters.self_hits,
+            cut_paths: counters.cut_paths,
+            cut_throughput: rendered.cut_share(),
+            fireflies: counters.fireflies,
+            clamped_samples: counters.clamped,
+            clamp_removed: rendered.clamp_removed(),
+            clamp_bias: rendered.clamp_bias(),
         }
     }
 }

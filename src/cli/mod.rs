@@ -8,6 +8,7 @@ mod check;
 mod console;
 mod describe;
 mod event;
+mod findings;
 mod interrupt;
 mod progress;
 mod render;

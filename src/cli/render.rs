@@ -4,7 +4,7 @@ use super::arguments::Job;
 use super::console::{duration, say, with_prefix};
 use super::event::{self, Event, JobRecord, Seconds, Summary, per_second};
 use super::progress::Reporter;
-use super::{describe, interrupt};
+use super::{describe, findings, interrupt};
 use crate::error::Error;
 use crate::output;
 use crate::picture::Destination;
@@ -59,12 +59,7 @@ pub(super) fn run(job: &Job) -> anyhow::Result<u8> {
 
 /// Says how it ended.
 fn conclude(job: &Job, rendered: &Rendered, seconds: Seconds) {
-    if rendered.counters.dropped > 0 {
-        say(format_args!(
-            "warning: {} samples were not finite or negative and count as black",
-            rendered.counters.dropped
-        ));
-    }
+    findings::report(job, rendered);
     if job.quiet {
         return;
     }
@@ -72,14 +67,13 @@ fn conclude(job: &Job, rendered: &Rendered, seconds: Seconds) {
     if rendered.cancelled {
         say(format_args!("interrupted after {} of {} samples", film.samples(), job.settings.samples));
     }
-    let samples = film.samples() as f64 * f64::from(film.width()) * f64::from(film.height());
     let total = seconds.load + seconds.build + seconds.render + seconds.write;
     say(format_args!(
         "{} written in {} ({} of sampling, {}samples/s, {}rays/s)",
         job.image.display(),
         duration(Duration::from_secs_f64(total)),
         duration(Duration::from_secs_f64(seconds.render)),
-        with_prefix(per_second(samples, seconds.render)),
+        with_prefix(per_second(rendered.samples(), seconds.render)),
         with_prefix(per_second(rendered.counters.rays as f64, seconds.render)),
     ));
 }

@@ -3,5 +3,5 @@
 mod counters;
 mod path;
 
-pub use counters::Counters;
+pub use counters::{Counters, FixedSum};
 pub use path::PathTracer;

@@ -3,7 +3,7 @@
 
 use super::Counters;
 use crate::accel::Accelerator;
-use crate::geometry::{PrimitiveId, Ray};
+use crate::geometry::{Hit, PrimitiveId, Ray};
 use crate::material::{Material, Pdf};
 use crate::math::{DVec3, Rgb};
 use crate::sampling::{PixelSeed, Sampler};
@@ -35,6 +35,8 @@ struct Path<'s, S> {
     pixel: PixelSeed,
     index: u64,
     ray: Ray,
+    /// How far the ray's origin was moved off the surface that it left; 0 of the camera's.
+    offset: f64,
     /// Factor on all light that the path still meets.
     throughput: Rgb,
     radiance: Rgb,
@@ -74,6 +76,7 @@ impl<'a, A: Accelerator> PathTracer<'a, A> {
             pixel,
             index,
             ray,
+            offset: 0.0,
             throughput: Rgb::ONE,
             radiance: Rgb::ZERO,
             chosen: Chosen::Alone,
@@ -91,9 +94,15 @@ impl<'a, A: Accelerator> PathTracer<'a, A> {
     fn extend<S: Sampler>(&self, path: &mut Path<S>, segment: u32, counters: &mut Counters) -> bool {
         counters.rays += 1;
         let Some(hit) = self.accelerator.intersect(&path.ray) else {
-            self.add_sky(path);
+            // Asked only here, since nothing is hit by such a ray.
+            if path.ray.is_finite() {
+                self.add_sky(path);
+            } else {
+                counters.refused += 1;
+            }
             return false;
         };
+        counters.self_hits += u64::from(path.meets_itself(&hit));
         let at = self.world.interaction(&path.ray, &hit);
         let emission = self.world.emission(hit.object);
         if emission != Rgb::ZERO {
@@ -102,6 +111,8 @@ impl<'a, A: Accelerator> PathTracer<'a, A> {
             path.radiance += path.throughput * emission * weight;
         }
         if segment == self.bounces {
+            counters.cut_paths += 1;
+            counters.cut_throughput.add(path.throughput.element_sum() / 3.0);
             return false;
         }
         let material = self.world.material(hit.object);
@@ -154,6 +165,10 @@ impl<'a, A: Accelerator> PathTracer<'a, A> {
         if self.accelerator.occluded(&ray, length, target) {
             return Rgb::ZERO;
         }
+        if !ray.is_finite() {
+            counters.refused += 1;
+            return Rgb::ZERO;
+        }
         // Balance heuristic; written so that an infinite density of the material gives 0, not Inf / Inf.
         scattered * light.radiance * (1.0 / (light.pdf + pdf))
     }
@@ -182,7 +197,15 @@ impl<'a, A: Accelerator> PathTracer<'a, A> {
             _ => Chosen::Alone,
         };
         path.ray = at.point.leave(scatter.direction);
+        path.offset = at.point.error.dot(path.ray.side.abs());
         path.throughput != Rgb::ZERO
+    }
+}
+
+impl<S> Path<'_, S> {
+    /// Whether a hit is the surface that the ray left, as far as can be told: see [`Counters::self_hits`].
+    fn meets_itself(&self, hit: &Hit) -> bool {
+        hit.t <= self.offset || (hit.primitive == self.ray.leaving && !self.ray.inward)
     }
 }
 

@@ -1,8 +1,19 @@
 //! A plane of sums cut into tiles that own their pixels.
 
+use super::{FIREFLY, FIREFLY_BEFORE};
 use crate::integrator::Counters;
 use crate::math::Rgb;
 use std::ops::Range;
+
+/// Samples that every pixel gets.
+pub(super) struct Pass {
+    /// Their indices.
+    pub(super) samples: Range<u64>,
+    /// How many of the same chunk every pixel has already.
+    pub(super) before: u64,
+    /// The most that a component of a sample may be.
+    pub(super) clamp: Option<f64>,
+}
 
 /// A rectangle of a plane.
 pub(super) struct Tile<'p> {
@@ -34,14 +45,9 @@ impl Tile<'_> {
         self.rows.iter().map(|row| row.len() as u64).sum()
     }
 
-    /// Adds the samples with these indices to every pixel, in this order; `None` if `cancelled`, which is asked before
-    /// every row.
-    pub(super) fn sum<F>(
-        &mut self,
-        samples: Range<u64>,
-        sample: &F,
-        cancelled: impl Fn() -> bool,
-    ) -> Option<Counters>
+    /// Adds the samples of a pass to every pixel, in the order of their indices; `None` if `cancelled`, which is asked
+    /// before every row.
+    pub(super) fn sum<F>(&mut self, pass: &Pass, sample: &F, cancelled: impl Fn() -> bool) -> Option<Counters>
     where
         F: Fn(u32, u32, u64, &mut Counters) -> Rgb,
     {
@@ -51,16 +57,46 @@ impl Tile<'_> {
                 return None;
             }
             for (pixel, x) in row.iter_mut().zip(self.x..) {
-                for index in samples.clone() {
+                let firefly = pass.firefly(*pixel);
+                for index in pass.samples.clone() {
                     let radiance = sample(x, y, index, &mut counters);
-                    if radiance.is_finite() && radiance.min_element() >= 0.0 {
-                        *pixel += radiance;
-                    } else {
-                        counters.dropped += 1;
-                    }
+                    *pixel += pass.judge(radiance, firefly, &mut counters);
                 }
             }
         }
         Some(counters)
     }
+}
+
+impl Pass {
+    /// Above which component a sample of a pixel is a firefly, given the sum of the pixel's samples in the chunk.
+    fn firefly(&self, sum: Rgb) -> f64 {
+        let largest = sum.max_element();
+        let is_known = self.before >= FIREFLY_BEFORE && largest > 0.0;
+        if is_known { FIREFLY * (largest / self.before as f64) } else { f64::INFINITY }
+    }
+
+    /// Counts what is odd about a sample; returns what is added to its pixel.
+    #[inline]
+    fn judge(&self, radiance: Rgb, firefly: f64, counters: &mut Counters) -> Rgb {
+        if !(radiance.is_finite() && radiance.min_element() >= 0.0) {
+            counters.dropped += 1;
+            return Rgb::ZERO;
+        }
+        let added = match self.clamp {
+            Some(limit) if radiance.max_element() > limit => clamp(radiance, limit, counters),
+            _ => radiance,
+        };
+        counters.fireflies += u64::from(added.max_element() > firefly);
+        added
+    }
+}
+
+/// Limits the components of a sample.
+fn clamp(radiance: Rgb, limit: f64, counters: &mut Counters) -> Rgb {
+    let limited = radiance.min(Rgb::splat(limit));
+    counters.clamped += 1;
+    // Divided first: the sum of the components may exceed the range of numbers.
+    counters.clamp_removed.add(((radiance - limited) / limit).element_sum() / 3.0);
+    limited
 }

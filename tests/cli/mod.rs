@@ -1,4 +1,5 @@
 mod check;
+mod findings;
 mod information;
 mod interrupt;
 mod json;

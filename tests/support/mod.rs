@@ -8,3 +8,4 @@ pub(crate) mod random;
 pub(crate) mod rays;
 pub(crate) mod scenes;
 pub(crate) mod stats;
+pub(crate) mod watch;

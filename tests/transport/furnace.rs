@@ -4,13 +4,13 @@ use crate::support::build::*;
 use pathtracer::math::DVec3;
 use pathtracer::scene::desc::{MaterialKind, ShapeDesc};
 
-const EYE: DVec3 = DVec3::new(-4.0, 0.3, 0.4);
+pub(super) const EYE: DVec3 = DVec3::new(-4.0, 0.3, 0.4);
 
-fn convex_shapes() -> [ShapeDesc; 2] {
+pub(super) fn convex_shapes() -> [ShapeDesc; 2] {
     [ball(DVec3::ZERO, 1.0), cuboid(DVec3::ZERO, DVec3::new(1.0, 1.5, 2.0), DVec3::new(10.0, 20.0, 30.0))]
 }
 
-fn opaque_white() -> Vec<MaterialKind> {
+pub(super) fn opaque_white() -> Vec<MaterialKind> {
     let white = grey(1.0);
     let mut kinds = vec![diffuse(white)];
     for specularity in [0.0, 0.25, 0.5, 0.75, 0.99, 1.0] {

@@ -2,6 +2,9 @@
 //! the standard error below the width that the test names.
 
 mod camera;
+mod counters;
 mod direct;
 mod furnace;
 mod invariance;
+mod long;
+mod rays;

@@ -1,0 +1,59 @@
+//! What a render counted, in words: faults always, the rest unless `--quiet`.
+
+use super::arguments::Job;
+use super::console::{number, say};
+use crate::render::{FIREFLY, Rendered};
+
+/// Says what is not zero.
+pub(super) fn report(job: &Job, rendered: &Rendered) {
+    let counters = &rendered.counters;
+    if counters.dropped > 0 {
+        say(format_args!(
+            "warning: {} samples were not finite or negative and count as black",
+            counters.dropped
+        ));
+    }
+    if counters.refused > 0 {
+        say(format_args!("warning: {} rays were not finite and bring no light", counters.refused));
+    }
+    if !job.quiet {
+        notes(rendered).iter().for_each(say);
+    }
+}
+
+/// What is no fault, but may be seen in the picture.
+fn notes(rendered: &Rendered) -> Vec<String> {
+    let counters = &rendered.counters;
+    let percent = |share: f64| number(100.0 * share);
+    let mut notes = Vec::new();
+    if counters.self_hits > 0 {
+        notes.push(format!(
+            "note: {} hits can't be told from the surface that the ray left",
+            counters.self_hits
+        ));
+    }
+    if counters.cut_paths > 0 {
+        notes.push(format!(
+            "note: the limit of bounces cut {} % of the paths, which carried {} % of the throughput",
+            percent(counters.cut_paths as f64 / rendered.samples()),
+            percent(rendered.cut_share())
+        ));
+    }
+    if counters.fireflies > 0 {
+        notes.push(format!(
+            "note: {} fireflies: samples over {FIREFLY} times brighter than the mean of their pixel before them",
+            counters.fireflies
+        ));
+    }
+    if let (1.., Some(limit), Some(removed), Some(bias)) =
+        (counters.clamped, rendered.clamp, rendered.clamp_removed(), rendered.clamp_bias())
+    {
+        notes.push(format!(
+            "note: {} samples were clamped to {limit}, which took {} % of the light: {} off the picture's mean",
+            counters.clamped,
+            percent(bias),
+            number(removed)
+        ));
+    }
+    notes
+}

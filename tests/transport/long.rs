@@ -1,0 +1,59 @@
+//! The closed forms at standard errors of 1e-3 and 1e-4, with as many samples as that takes: behind `--ignored`.
+
+use super::furnace::{EYE, convex_shapes, opaque_white};
+use crate::support::build::*;
+use crate::support::stats::Moments;
+use pathtracer::math::DVec3;
+use pathtracer::scene::desc::SceneDesc;
+
+/// [`assert_mean`] with the samples that a pilot of other paths' length finds necessary, and half as many again.
+fn assert_narrow(
+    what: &str,
+    desc: &SceneDesc,
+    bounces: u32,
+    light_sampling: bool,
+    expected: f64,
+    width: f64,
+) {
+    let pilot = Measure { samples: 50_000, bounces, light_sampling };
+    let variance = Moments::of(samples(desc, &pilot)).variance();
+    let needed = 1.5 * variance / (width * expected * width * expected);
+    assert!(needed < 1e9, "{what}: {needed:e} samples");
+    let measure = Measure { samples: (needed as u64).max(50_000), ..pilot };
+    assert_mean(what, desc, &measure, expected, width);
+}
+
+#[test]
+#[ignore = "minutes"]
+fn closed_furnaces_to_a_standard_error_of_1e_4() {
+    let shapes =
+        [ball(DVec3::ZERO, 1.0), cuboid(DVec3::ZERO, DVec3::new(1.0, 2.0, 3.0), DVec3::new(0.0, 0.0, 17.0))];
+    for shape in shapes {
+        for rho in [0.1, 0.5, 0.9, 0.99] {
+            for bounces in [2, 5, 16] {
+                let body = (shape.clone(), glowing(grey(rho), grey(1.0 - rho)));
+                let desc = scene(DVec3::new(0.1, 0.2, 0.3), DVec3::new(0.4, 0.1, -0.2), vec![body]);
+                let expected = 1.0 - f64::powi(rho, bounces);
+                for light_sampling in [false, true] {
+                    let what =
+                        format!("{shape:?} rho {rho} bounces {bounces} light sampling {light_sampling}");
+                    assert_narrow(&what, &desc, bounces as u32, light_sampling, expected, 1e-4);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+#[ignore = "minutes"]
+fn white_furnaces_with_light_sampling_to_a_standard_error_of_1e_3() {
+    for shape in convex_shapes() {
+        for kind in opaque_white() {
+            let mut desc = scene(EYE, DVec3::ZERO, vec![(shape.clone(), kind.clone())]);
+            desc.environment = sky(1.0);
+            // Not constant to the program: a gradient by a last bit, so that the sky is sampled.
+            desc.environment.sky = grey(1.0 + 1e-15);
+            assert_narrow(&format!("{kind:?}"), &desc, 8, true, 1.0, 1e-3);
+        }
+    }
+}
