@@ -112,7 +112,7 @@ pub enum Error {
     Scene(Vec<Diagnostic>),
     /// A setting that can't be.
     Usage(String),
-    /// Something that this build or this machine lacks, and how to get it.
+    /// Something that this machine lacks.
     Unavailable(String),
     /// A file could not be read or written; `action` reads like "write the picture".
     Io {
@@ -170,9 +170,13 @@ impl Error {
     pub fn exit_code(&self) -> u8 {
         match self {
             Error::Scene(_) => 3,
-            Error::Usage(_) | Error::Unavailable(_) => 2,
+            Error::Usage(_) => 2,
             Error::Interrupted => 130,
-            Error::Io { .. } | Error::Accelerator(_) | Error::Picture(_) | Error::Internal(_) => 1,
+            Error::Unavailable(_)
+            | Error::Io { .. }
+            | Error::Accelerator(_)
+            | Error::Picture(_)
+            | Error::Internal(_) => 1,
         }
     }
 }

@@ -35,6 +35,8 @@ pub const MAX_SIDE: u32 = 65_536;
 pub const MAX_PIXELS: u64 = 1 << 30;
 /// The most samples per pixel.
 pub const MAX_SAMPLES: u64 = 1 << 32;
+/// The longest path, in segments. A closed white scene keeps paths for ever, and a stop is asked for between pixels' rows.
+pub const MAX_BOUNCES: u32 = 65_536;
 /// The most threads that can be asked for.
 pub const MAX_THREADS: usize = 1024;
 /// Samples a pixel in a chunk, unless set otherwise: few enough that stopping loses little, enough that waiting for
@@ -76,7 +78,7 @@ pub struct Settings {
     pub height: u32,
     /// Samples per pixel, 1 to [`MAX_SAMPLES`].
     pub samples: u64,
-    /// The longest path in ray segments, at least 1.
+    /// The longest path in ray segments, 1 to [`MAX_BOUNCES`].
     pub bounces: u32,
     /// What finds hits.
     pub accel: AccelKind,
@@ -136,7 +138,7 @@ impl Settings {
         }
         let ranges = [
             ("samples", self.samples, MAX_SAMPLES),
-            ("bounces", self.bounces.into(), u32::MAX.into()),
+            ("bounces", self.bounces.into(), MAX_BOUNCES.into()),
             ("tile", self.tile.map_or(1, u64::from), MAX_SIDE.into()),
             ("chunk", self.chunk.into(), u32::MAX.into()),
             ("threads", self.threads.map_or(1, |threads| threads as u64), MAX_THREADS as u64),
@@ -387,7 +389,7 @@ fn panic_message(payload: &(dyn Any + Send)) -> &str {
 }
 
 fn no_embree() -> Error {
-    Error::Unavailable(
+    Error::Usage(
         "this build has no Embree: install Debian's libembree-dev and build with `--features embree`, or use \
          `--accel native`"
             .into(),

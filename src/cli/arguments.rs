@@ -2,7 +2,7 @@
 
 use crate::accel::{Isa, Precision};
 use crate::error::Error;
-use crate::render::{AccelKind, MAX_SAMPLES, MAX_SIDE, MAX_THREADS, Settings};
+use crate::render::{AccelKind, MAX_BOUNCES, MAX_SAMPLES, MAX_SIDE, MAX_THREADS, Settings};
 use crate::sampling::SamplerKind;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{CommandFactory, FromArgMatches, Parser};
@@ -79,7 +79,7 @@ pub(super) struct RenderArguments {
     #[arg(value_name = "SAMPLES", allow_negative_numbers = true, value_parser = whole(MAX_SAMPLES))]
     samples: Option<u64>,
     /// Longest path in ray segments; 1 shows only lights and the sky
-    #[arg(value_name = "BOUNCES", allow_negative_numbers = true, value_parser = whole(u32::MAX.into()))]
+    #[arg(value_name = "BOUNCES", allow_negative_numbers = true, value_parser = whole(MAX_BOUNCES.into()))]
     bounces: Option<u64>,
     /// Picture to write: .png (8-bit sRGB) or .exr (linear f32)
     #[arg(value_name = "IMAGE")]

@@ -36,8 +36,11 @@ pub(super) fn run(job: &Job) -> anyhow::Result<u8> {
         event::emit(&Event::Start { job: JobRecord::new(job), requires: &world.requires });
     }
 
+    // The world has all it needs of the meshes.
+    let camera = scene.desc.camera.clone();
+    drop(scene);
     let reporter = Reporter::new(job);
-    let rendered = render(&world, &scene.desc.camera, &job.settings, &reporter);
+    let rendered = render(&world, &camera, &job.settings, &reporter);
     reporter.finish();
     let rendered = rendered?;
     if rendered.film.samples() == 0 {

@@ -4,10 +4,10 @@ mod exr;
 mod png;
 
 use crate::error::{Error, Result};
-use std::ffi::OsString;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU32, Ordering};
 
 /// The file formats of pictures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -67,10 +67,9 @@ impl Destination {
             Ok(_) => fs::canonicalize(path).map_err(failed)?,
             Err(_) => path.to_path_buf(),
         };
-        let mut name = OsString::from(".");
-        name.push(target.file_name().unwrap_or_default());
-        name.push(format!(".{}.part", std::process::id()));
-        let partial = target.with_file_name(name);
+        // Short, whatever the name of the picture, and different for every picture under way.
+        let number = NUMBER.fetch_add(1, Ordering::Relaxed);
+        let partial = target.with_file_name(format!(".pathtracer-{}-{number}.part", std::process::id()));
         drop(Partial::create(&partial).map_err(failed)?);
         Ok(Destination { path: target, partial, format })
     }
@@ -110,6 +109,9 @@ impl Destination {
         partial.rename_to(&self.path).map_err(failed)
     }
 }
+
+/// Counts the temporary names of this process.
+static NUMBER: AtomicU32 = AtomicU32::new(0);
 
 /// A temporary file that is removed unless it got its final name.
 struct Partial<'p> {

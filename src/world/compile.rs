@@ -14,6 +14,7 @@ use crate::scene::desc::{Axes, MaterialKind, MeshDesc, ObjectDesc, SceneDesc, Sh
 impl World {
     /// Compiles a scene. Fails where an object lies beyond what numbers can hold.
     pub fn compile(desc: &SceneDesc) -> Result<World> {
+        countable(&desc.objects)?;
         let origin = median_position(&desc.objects);
         let mut parts = Parts::default();
         let mut problems = Vec::new();
@@ -52,6 +53,26 @@ impl World {
         Ok(world)
     }
 }
+
+/// Whether the triangles, corners and normals of all meshes can be counted by 31 bits.
+fn countable(objects: &[ObjectDesc]) -> Result<()> {
+    let mut counts = [0usize; 3];
+    for object in objects {
+        if let ShapeDesc::TriangleMesh { mesh, .. } = &object.shape {
+            let more = [mesh.triangles.len(), mesh.positions.len(), mesh.normals.len()];
+            counts = [0, 1, 2].map(|i| counts[i] + more[i]);
+            if counts.iter().any(|&count| count >= MOST_INDICES) {
+                let what =
+                    format!("takes the meshes of the scene beyond {MOST_INDICES} triangles or corners");
+                return Err(Error::Scene(vec![out_of_range(object, what)]));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Indices of triangles, corners and normals stay below this.
+const MOST_INDICES: usize = 0x7fff_ffff;
 
 /// By how much, at most, each mesh's corners have been moved along an axis when they were rounded.
 fn mesh_rounding(geometry: &Geometry, meshes: &[MeshPart]) -> Vec<f64> {
@@ -170,7 +191,7 @@ impl Parts {
 const FLAT: [u32; 3] = [u32::MAX; 3];
 
 /// Fourth powers of lengths must stay within the range of f64.
-const LARGEST: f64 = 1e75;
+pub(super) const LARGEST: f64 = 1e75;
 
 /// Fourth powers of lengths must not vanish.
 const SMALLEST: f64 = 1e-75;

@@ -63,7 +63,7 @@ impl Sky {
 
     fn gradient(&self, z: f64) -> Rgb {
         let (end, exponent) = if z >= 0.0 { (self.sky, 0.8) } else { (self.ground, 0.1) };
-        self.horizon + (end - self.horizon) * libm::pow(z.abs().min(1.0), exponent)
+        self.horizon + (end - self.horizon) * libm::pow(z.abs().clamp(0.0, 1.0), exponent)
     }
 
     /// A unit direction towards the sky with its density per solid angle, from `u` in [0, 1)^2. Only for gradients.

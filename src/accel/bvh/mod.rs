@@ -97,10 +97,10 @@ fn pack(geometry: &Geometry, tree: &Tree) -> Vec<TriangleBlock> {
 }
 
 fn triangle_tree(geometry: &Geometry) -> Tree {
-    let padding = triangle_padding(geometry);
     let triangles = 0..geometry.triangles.len() as u32;
     let prims = triangles.into_par_iter().map(|index| {
         let (low, high) = triangle_bounds(geometry, index);
+        let padding = triangle_padding(geometry, low, high);
         PrimRef::new(index, low.map(|x| round_down(x - padding)), high.map(|x| round_up(x + padding)))
     });
     build::build(prims.collect(), TriangleBlock::LANES)
@@ -111,15 +111,16 @@ fn triangle_bounds(geometry: &Geometry, index: u32) -> ([f64; 3], [f64; 3]) {
     (a.min(b).min(c).to_array(), a.max(b).max(c).to_array())
 }
 
-/// By how much a box of triangles is widened: 2^-21 of the farthest that a local ray starts.
+/// By how much a triangle's box is widened: 2^-22 of its own largest coordinate, and 2^-48 of the farthest that a local
+/// ray starts.
 ///
-/// The node test itself is conservative ([`NodeRay`]) for the f32 ray. Half of the widening is for the f64 ray, from
-/// which that one strays by 2^-23 of its start and 2^-24 of its way. The other half is for the leaf. Its edge functions are wrong by a few
-/// 2^-53 |edge| |corner - origin|, so it takes rays that pass a triangle's edge at some 2^-50 of the distance, and a
-/// corner whose angle is 2^-24 (the sharpest that f32 corners make, short of none) at 2^-26. The distance it finds is
-/// wrong by as much, over the cosine of the angle to the normal. The rest is for oblique rays at such slivers.
-fn triangle_padding(geometry: &Geometry) -> f64 {
-    geometry.mesh_frame.padding() / 4.0
+/// The node test itself is conservative for the ray that the leaf decides about ([`NodeRay`]); this is for the leaf's own
+/// roundings. Corners are projected along the ray with errors of a few 2^-53 |corner - origin|, so the leaf takes rays that
+/// pass an edge at some 2^-51 of the distance. The first term is more than that for origins up to 2^28 times as far as the
+/// triangle, the second for the rest. Being relative to the triangle, it costs a fine mesh nothing beside a huge one.
+fn triangle_padding(geometry: &Geometry, low: [f64; 3], high: [f64; 3]) -> f64 {
+    let largest = low.into_iter().chain(high).fold(0.0, |most: f64, x| most.max(x.abs()));
+    largest / 4_194_304.0 + geometry.mesh_frame.padding() / 536_870_912.0
 }
 
 fn solid_tree(geometry: &Geometry) -> Tree {

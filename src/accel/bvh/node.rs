@@ -87,13 +87,18 @@ impl Node {
 
 /// A ray as the node test needs it.
 ///
-/// The test is conservative for the exact f32 ray: the distance to a plane is `(plane - origin) * reciprocal`, whose
-/// three roundings change it by a factor within (1 +- 2^-24)^3 (Pharr, Jakob, Humphreys, "Physically Based Rendering"
-/// 4th ed., 6.8.2: gamma(3)). Instead of widening the far distance by 1 + 2 gamma(3) in every node, the reciprocals are
-/// made smaller for near planes and larger for far planes once a ray, by six roundings where four are needed.
+/// The test is conservative for the f64 ray. That one starts within one f32 step of the local ray's origin: so planes are
+/// seen from a step nearer to where they are met first, and from a step farther from where they are met last. The
+/// distance to a plane is `(plane - origin) * reciprocal`; its three roundings and that of the direction change it by a
+/// factor within (1 +- 2^-24)^4 (Pharr, Jakob, Humphreys, "Physically Based Rendering" 4th ed., 6.8.2: gamma(4)). Instead
+/// of widening the far distance in every node, the reciprocals are made smaller for near planes and larger for far planes
+/// once a ray, by six roundings where five are needed.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct NodeRay {
-    pub(super) origin: [f32; 3],
+    /// Start for near planes.
+    pub(super) near_origin: [f32; 3],
+    /// Start for far planes.
+    pub(super) far_origin: [f32; 3],
     /// Reciprocal direction for near planes: finite, no larger than the exact one.
     pub(super) near_reciprocal: [f32; 3],
     /// Reciprocal direction for far planes: no smaller than the exact one, infinite for 0. Then a far plane through the
@@ -106,12 +111,15 @@ pub(super) struct NodeRay {
 impl NodeRay {
     #[inline(always)]
     pub(super) fn new(ray: &LocalRay) -> NodeRay {
-        let direction = ray.direction.to_array();
+        let (origin, direction) = (ray.origin.to_array(), ray.direction.to_array());
+        let backwards = [0, 1, 2].map(|axis| direction[axis].is_sign_negative());
+        let step = |axis: usize, up: bool| if up { origin[axis].next_up() } else { origin[axis].next_down() };
         NodeRay {
-            origin: ray.origin.to_array(),
+            near_origin: [0, 1, 2].map(|axis| step(axis, !backwards[axis])),
+            far_origin: [0, 1, 2].map(|axis| step(axis, backwards[axis])),
             near_reciprocal: direction.map(near_reciprocal),
             far_reciprocal: direction.map(far_reciprocal),
-            first_planes: [0, 1, 2].map(|axis| axis + 3 * usize::from(direction[axis].is_sign_negative())),
+            first_planes: [0, 1, 2].map(|axis| axis + 3 * usize::from(backwards[axis])),
         }
     }
 }

@@ -183,9 +183,9 @@ impl Lanes for Sse2 {
                 let mut far = _mm_set1_ps(limit);
                 for axis in 0..3 {
                     let (first, last) = planes(node, ray, axis);
-                    let origin = _mm_set1_ps(ray.origin[axis]);
-                    let first = _mm_sub_ps(_mm_load_ps(first.add(4 * half)), origin);
-                    let last = _mm_sub_ps(_mm_load_ps(last.add(4 * half)), origin);
+                    let (first, last) = (first.add(4 * half), last.add(4 * half));
+                    let first = _mm_sub_ps(_mm_load_ps(first), _mm_set1_ps(ray.near_origin[axis]));
+                    let last = _mm_sub_ps(_mm_load_ps(last), _mm_set1_ps(ray.far_origin[axis]));
                     *near = _mm_max_ps(_mm_mul_ps(first, _mm_set1_ps(ray.near_reciprocal[axis])), *near);
                     far = _mm_min_ps(_mm_mul_ps(last, _mm_set1_ps(ray.far_reciprocal[axis])), far);
                 }
@@ -227,9 +227,8 @@ impl Avx2 {
             let (mut near, mut far) = (_mm256_setzero_ps(), _mm256_set1_ps(limit));
             for axis in 0..3 {
                 let (first, last) = planes(node, ray, axis);
-                let origin = _mm256_set1_ps(ray.origin[axis]);
-                let first = _mm256_sub_ps(_mm256_load_ps(first), origin);
-                let last = _mm256_sub_ps(_mm256_load_ps(last), origin);
+                let first = _mm256_sub_ps(_mm256_load_ps(first), _mm256_set1_ps(ray.near_origin[axis]));
+                let last = _mm256_sub_ps(_mm256_load_ps(last), _mm256_set1_ps(ray.far_origin[axis]));
                 near = _mm256_max_ps(_mm256_mul_ps(first, _mm256_set1_ps(ray.near_reciprocal[axis])), near);
                 far = _mm256_min_ps(_mm256_mul_ps(last, _mm256_set1_ps(ray.far_reciprocal[axis])), far);
             }

@@ -1,5 +1,6 @@
 //! The `Environment` section.
 
+use super::MOST_RADIANCE;
 use super::PICTURES;
 use crate::math::Rgb;
 use crate::scene::desc::EnvironmentDesc;
@@ -42,5 +43,11 @@ pub(super) fn read(value: Value<'_>, report: &mut Report) -> Option<EnvironmentD
     let ground =
         fields.vector("GroundColor", Range::NonNegative, "[r, g, b], the radiance from below", report);
     let strength = fields.number_or("Strength", Range::NonNegative, 1.0, report);
-    Some(EnvironmentDesc { sky: sky?, horizon: horizon?, ground: ground?, strength: strength? })
+    let (sky, horizon, ground, strength) = (sky?, horizon?, ground?, strength?);
+    if [sky, horizon, ground].iter().any(|color| color.max_element() * strength > MOST_RADIANCE) {
+        let value = fields.get("Strength").unwrap_or(value);
+        value.error(&format!("times the colours must be at most {MOST_RADIANCE:e}"), None, report);
+        return None;
+    }
+    Some(EnvironmentDesc { sky, horizon, ground, strength })
 }

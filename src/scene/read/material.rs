@@ -1,6 +1,6 @@
 //! The `Material` section of an object.
 
-use super::PICTURES;
+use super::{MOST_RADIANCE, PICTURES};
 use crate::math::Rgb;
 use crate::scene::desc::{MaterialDesc, MaterialKind};
 use crate::scene::diagnostic::Report;
@@ -75,9 +75,9 @@ fn diffuse(fields: &Fields<'_>, report: &mut Report) -> Option<MaterialKind> {
     let strength = fields.number_or("EmissionStrength", Range::NonNegative, 0.0, report);
     let emitted = fields.vector_or("EmissionColor", Range::NonNegative, Rgb::ONE, report);
     let emission = emitted? * strength?;
-    if !emission.is_finite() {
-        let value = fields.get("EmissionStrength")?;
-        value.error("times EmissionColor must be finite", None, report);
+    if emission.max_element() > MOST_RADIANCE {
+        let value = fields.get("EmissionStrength").or(fields.get("EmissionColor"))?;
+        value.error(&format!("times EmissionColor must be at most {MOST_RADIANCE:e}"), None, report);
         return None;
     }
     Some(MaterialKind::Diffuse { color: color?, emission })

@@ -22,6 +22,9 @@ const SCENE: Section = Section { name: "the scene", keys: &["Camera", "Environme
 const SECTIONS: [Section; 5] =
     [camera::SECTION, environment::SECTION, object::SECTION, material::SECTION, SCENE];
 
+/// The most radiance that a light or the sky may have: products with areas and sums over lights stay within numbers.
+const MOST_RADIANCE: f64 = 1e100;
+
 /// What follows the path of a key that names a picture.
 const PICTURES: &str = "names a picture; pictures are not supported by this version";
 

@@ -7,10 +7,14 @@ use crate::material::Material;
 use crate::math::{Bounds, DVec3, EPSILON, Rgb};
 use crate::scene::desc::{ObjectDesc, SceneDesc};
 use crate::world::World;
+use crate::world::compile::LARGEST;
 
 pub(super) fn check(world: &World, desc: &SceneDesc, width: u32) -> Vec<Diagnostic> {
     let mut found: Vec<Diagnostic> =
-        [view(desc, width), direction(desc, width), lens(world, desc)].into_iter().flatten().collect();
+        [range(world, desc), view(desc, width), direction(desc, width), lens(world, desc)]
+            .into_iter()
+            .flatten()
+            .collect();
     let position = desc.camera.position - world.origin;
     let reach = world.camera(&desc.camera, width, 1).lens_radius;
     for (solid, index) in world.geometry.solids.iter().zip(0..) {
@@ -29,6 +33,20 @@ pub(super) fn check(world: &World, desc: &SceneDesc, width: u32) -> Vec<Diagnost
 /// Width of a pixel in the middle of the picture, in radians.
 fn pixel_angle(desc: &SceneDesc, width: u32) -> f64 {
     2.0 * libm::tan(desc.camera.fov * std::f64::consts::FRAC_PI_2) / f64::from(width.max(1))
+}
+
+/// A place or a length that leaves no room for the products of lengths.
+fn range(world: &World, desc: &SceneDesc) -> Option<Diagnostic> {
+    let camera = &desc.camera;
+    let (position, target) = (camera.position - world.origin, camera.looking_at - camera.position);
+    let lens_radius = world.camera(camera, 1, 1).lens_radius;
+    let places = position.abs().max_element().max(target.abs().max_element());
+    let largest = places.max(camera.focus_distance).max(lens_radius);
+    let message = format!(
+        "the camera's place, direction, FocusDistance or lens reaches {largest:e} units, farther than {LARGEST:e}"
+    );
+    let help = "bring the camera's numbers into the range that numbers can hold";
+    (largest > LARGEST).then(|| diagnostic(Severity::Error, None, message, help))
 }
 
 /// Neighbouring pixels see the same.
