@@ -57,19 +57,21 @@ fn a_firefly_among_a_million_samples_is_kept() {
     assert_mean_of("firefly", 62_500, 16, sample);
 }
 
-/// Through the render loop: samples that are no light are left out and counted, fireflies are not.
+/// Through the render loop: samples that are no light are left out and counted, fireflies are kept and counted.
 #[test]
 fn samples_that_are_not_finite_are_counted_and_fireflies_kept() {
     let settings = Settings { threads: Some(2), ..Settings::new(8, 8, 2000, 1) };
-    let sample = |_, _, index, _: &mut _| match index % 1000 {
+    let sample = |_, _, index, _: &mut _| match index % 1008 {
         1 => Rgb::new(f64::NAN, 1.0, 1.0),
         2 => Rgb::splat(f64::INFINITY),
         3 => Rgb::new(1.0, -1e-3, 1.0),
-        4 => Rgb::splat(1e30),
+        // In the second half of a chunk, where samples are judged by the first.
+        12 => Rgb::splat(1e30),
         _ => Rgb::ONE,
     };
     let rendered = accumulate(&settings, &Alone, sample).expect("a render");
     assert_eq!(rendered.counters.dropped, 3 * 2 * 64);
+    assert_eq!(rendered.counters.fireflies, 2 * 64);
     // Of 2000 samples two are fireflies; the dropped ones count as black.
     let expected = (2e30 + 1992.0) / 2000.0;
     for mean in rendered.film.means() {

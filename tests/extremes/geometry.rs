@@ -1,6 +1,6 @@
 //! The geometry routines on any numbers, against double-double arithmetic.
 //!
-//! Seeds are fixed; cases that failed once are in `proptest-regressions` beside the tests and are tried first.
+//! Seeds are fixed; cases that failed once stand in the `.regressions` files beside the tests and are tried first.
 
 mod frame;
 mod solids;

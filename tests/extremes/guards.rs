@@ -117,17 +117,21 @@ fn a_mesh_that_rounding_distorts_is_warned_of_and_refused_when_nothing_is_left()
 
 #[test]
 fn triangles_that_rounding_leaves_without_area_are_counted() {
+    // Most corners are near the middle, which therefore keeps its digits.
     let mut corners = vec![[0.0, 0.0, 0.0], [1000.0, 0.0, 0.0], [0.0, 1000.0, 0.0]];
+    corners.extend([[0.1, 0.0, 0.0], [0.0, 0.1, 0.0], [0.1, 0.1, 0.0], [0.0, 0.0, 0.1], [0.0, 0.1, 0.1]]);
     // A fan of three triangles, far less than 2^-24 of the mesh in size.
+    let tip = [900.1, 700.1, 0.1];
     corners.extend([
-        [900.1, 0.1, 0.1],
-        [900.1 + 1e-7, 0.1, 0.1],
-        [900.1, 0.1 + 1e-12, 0.1],
-        [900.1, 0.1, 0.1 + 1e-12],
+        tip,
+        [tip[0] + 1e-7, tip[1], 0.1],
+        [tip[0], tip[1] + 1e-12, 0.1],
+        [tip[0], tip[1], 0.1 + 1e-12],
     ]);
-    let desc = seen(vec![mesh(corners, vec![[0, 1, 2], [3, 4, 5], [3, 5, 6], [3, 6, 4]])]);
+    let triangles = vec![[0, 1, 2], [3, 4, 6], [5, 6, 7], [8, 9, 10], [8, 10, 11], [8, 11, 9]];
+    let desc = seen(vec![mesh(corners, triangles)]);
     let all = said(&desc);
-    let expected = "3 of the 4 triangles of this mesh are not drawn: nothing is left of their area when corners are \
+    let expected = "3 of the 6 triangles of this mesh are not drawn: nothing is left of their area when corners are \
                     rounded, by up to";
     assert!(
         all.iter().any(|(error, line, text)| !error && *line == Some(1) && text.starts_with(expected)),
