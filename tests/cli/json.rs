@@ -19,7 +19,7 @@ fn a_render_starts_and_is_done() {
         assert_eq!(event["image"], "a.exr");
         assert_eq!((event["width"].as_u64(), event["height"].as_u64()), (Some(8), Some(6)));
         assert_eq!((event["samples"].as_u64(), event["bounces"].as_u64()), (Some(20), Some(3)));
-        assert_eq!((event["accel"].as_str(), event["precision"].as_str()), (Some("native"), Some("robust")));
+        assert_eq!((event["accel"].as_str(), event["precision"].as_str()), (Some("native"), Some("exact")));
         assert_eq!((event["seed"].as_u64(), event["threads"].as_u64()), (Some(7), Some(1)));
         assert_eq!(
             (event["sampler"].as_str(), event["light_sampling"].as_bool()),
