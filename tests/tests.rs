@@ -54,3 +54,6 @@ mod counters;
 
 /// The program from outside.
 mod cli;
+
+/// Measurements, which assert nothing.
+mod speed;
