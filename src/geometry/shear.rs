@@ -10,9 +10,9 @@ use crate::math::DVec3;
 /// between them, neither at edges nor at corners.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shear {
-    /// The two other axes and the direction's largest one.
-    axes: [usize; 3],
-    /// Slopes of the direction along the first two axes.
+    /// The direction's largest axis, 0 to 2.
+    axis: u32,
+    /// Slopes of the direction along the two axes that follow it in turn.
     slopes: [f64; 2],
 }
 
@@ -21,23 +21,32 @@ impl Shear {
     #[inline(always)]
     pub(super) fn onto_largest_axis(direction: DVec3) -> Shear {
         let size = direction.abs();
-        let z = if size.x >= size.y && size.x >= size.z {
+        let axis = if size.x >= size.y && size.x >= size.z {
             0
         } else if size.y >= size.z {
             1
         } else {
             2
         };
-        let [x, y] = [(z + 1) % 3, (z + 2) % 3];
-        let d = direction.to_array();
-        Shear { axes: [x, y, z], slopes: [d[x] / d[z], d[y] / d[z]] }
+        let [x, y, z] = rotated(direction, axis);
+        Shear { axis, slopes: [x / z, y / z] }
     }
 
     /// Where a point, relative to the start of the ray, is seen.
     #[inline(always)]
     pub(super) fn project(&self, p: DVec3) -> [f64; 2] {
-        let (p, [x, y, z]) = (p.to_array(), self.axes);
-        [p[x] - self.slopes[0] * p[z], p[y] - self.slopes[1] * p[z]]
+        let [x, y, z] = rotated(p, self.axis);
+        [x - self.slopes[0] * z, y - self.slopes[1] * z]
+    }
+}
+
+/// The components with that of `axis` last.
+#[inline(always)]
+fn rotated(p: DVec3, axis: u32) -> [f64; 3] {
+    match axis {
+        0 => [p.y, p.z, p.x],
+        1 => [p.z, p.x, p.y],
+        _ => [p.x, p.y, p.z],
     }
 }
 
