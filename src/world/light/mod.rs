@@ -39,7 +39,7 @@ pub struct Lights {
     lights: Vec<AreaLight>,
     /// Index of the light of an object, or `u32::MAX`.
     of_object: Vec<u32>,
-    /// Power of the sky over that of everything, where it is sampled at all.
+    /// Share of the samples that go to the sky: 0 unless it is a gradient, 1 if nothing else shines.
     sky_share: f64,
     /// Choice by power; used when there are too many lights to weigh each one at every point.
     table: AliasTable,
