@@ -77,7 +77,7 @@ impl View {
     fn new(geometry: &Geometry, ray: &LocalRay, hit: &Hit) -> View {
         let index = hit.primitive.as_triangle().expect("a scene of triangles");
         let d = ray.direction64();
-        let v = geometry.corners(index).map(|corner| corner - ray.origin64());
+        let v = geometry.spaces[0].corners(index).map(|corner| corner - ray.origin64());
         let edges = [(0, 1), (1, 2), (2, 0)].map(|(i, j)| (v[i], v[j]));
         let greatest = |values: [f64; 3]| values.into_iter().fold(0.0, f64::max);
         let function = |(p, q): (DVec3, DVec3)| (p - q).cross(p + q).dot(d).abs();
@@ -108,11 +108,11 @@ fn compare(geometry: &Geometry, ray: &Ray, native: Option<Hit>, embree: Option<H
     if native == embree {
         return None;
     }
-    let Some(local) = geometry.mesh_frame.localize(ray, f64::INFINITY, PrimitiveId::NONE) else {
+    let Some(local) = geometry.localize(0, ray, f64::INFINITY, PrimitiveId::NONE) else {
         return Some(Kind::Fault);
     };
     let view = |hit: &Hit| View::new(geometry, &local, hit);
-    let error = |hit: &Hit| view(hit).error() / geometry.mesh_frame.scale;
+    let error = |hit: &Hit| view(hit).error() / geometry.spaces[0].frame.scale;
     // What only one of them takes as the answer, and how far it lies before the other's.
     let (nearer, gap) = match (native, embree) {
         // t, u and v of one triangle come from one routine.
@@ -172,7 +172,7 @@ fn assert_explained(scene: &TestScene, rays: &[Ray]) -> usize {
 
 /// Incoherent rays, of which one of 10,000 may get different answers.
 fn assert_rare(scene: &TestScene, count: usize) {
-    let triangles = scene.geometry.triangles.len();
+    let triangles = scene.geometry.spaces[0].triangles.len();
     assert!(triangles >= 100_000, "{}: {triangles} triangles", scene.name);
     let differing = assert_explained(scene, &incoherent_rays(count, 81));
     assert!(differing * 10_000 <= count, "{}: {differing} of {count} rays disagree", scene.name);

@@ -84,7 +84,7 @@ fn nanoseconds_a_ray() {
                 times.push(measure(accelerator.as_ref(), &rays));
             }
         }
-        println!("{} triangles, on a ball of radius 1e7: {on_a_ball}", geometry.triangles.len());
+        println!("{} triangles, on a ball of radius 1e7: {on_a_ball}", geometry.spaces[0].triangles.len());
         for ((name, _), times) in all.iter().zip(&mut times) {
             let median = |which: usize| {
                 let mut values: Vec<f64> = times.iter().map(|time| time[which]).collect();

@@ -49,6 +49,9 @@ mod render;
 /// The same bytes for all threads, tiles, accelerators and instruction sets, on every sample scene.
 mod identity;
 
+/// Meshes that several objects show: one copy, the same picture.
+mod instances;
+
 /// What is counted about the samples: fireflies, the limit and what it takes.
 mod counters;
 

@@ -70,13 +70,19 @@ unsafe extern "C" fn occluded(args: *const RTCOccludedFunctionNArguments) {
     }
 }
 
+/// Whether a distance is that of the triangle. Embree divides by an approximate reciprocal with one Newton step, which is
+/// right to two units in the last place or so, and not the same on every machine.
+fn is_at_one(t: f32) -> bool {
+    (t - 1.0).abs() <= 2.0 * f32::EPSILON
+}
+
 unsafe extern "C" fn filter(args: *const RTCFilterFunctionNArguments) {
     // SAFETY: Embree passes valid arguments for one ray, of a `Query<Seen>`.
     unsafe {
         let seen = Query::<Seen>::data((*args).context);
         (*seen).filter_calls += 1;
         assert_eq!(((*args).N, *(*args).valid), (1, -1));
-        assert_eq!(ray_tfar((*args).ray), 1.0);
+        assert!(is_at_one(ray_tfar((*args).ray)));
         if (*seen).refuse == Some(hit_ids((*args).hit)) {
             *(*args).valid = 0;
         }
@@ -143,7 +149,8 @@ fn the_library_is_not_older_than_the_header() {
 fn the_closest_hit_has_the_ids_of_its_geometry() {
     let scene = scene();
     let (t, geometry, primitive, seen) = closest(&scene, ray(0.0, 0.0, 10.0, 1), None);
-    assert_eq!((t, geometry, primitive, seen.filter_calls), (1.0, scene.triangle, 0, 1));
+    assert!(is_at_one(t), "{t}");
+    assert_eq!((geometry, primitive, seen.filter_calls), (scene.triangle, 0, 1));
     let (t, geometry, primitive, seen) = closest(&scene, ray(-0.9, 0.9, 10.0, 1), None);
     assert_eq!((t, geometry, primitive, seen.user_calls), (PLANE_T, scene.user, 0, 1));
     let (t, geometry, _, _) = closest(&scene, ray(0.0, 0.0, 0.5, 1), None);

@@ -1,6 +1,6 @@
 //! A loop over all primitives: the definition of a hit as code, and the tests' oracle.
 
-use super::{Kernel, distance, nearer};
+use super::{Kernel, any_in_solid, closest_in_solid};
 use crate::geometry::{Geometry, Hit, LocalRay, PrimitiveId, Ray, TriangleHit, intersect_triangle};
 
 /// Tries every primitive; exact.
@@ -14,11 +14,11 @@ impl<'g> BruteForce<'g> {
         BruteForce { geometry }
     }
 
-    fn hits<'r>(&'r self, ray: &'r LocalRay) -> impl Iterator<Item = TriangleHit> + 'r {
-        let triangles = 0..self.geometry.triangles.len() as u32;
+    fn hits<'r>(&'r self, space: u32, ray: &'r LocalRay) -> impl Iterator<Item = TriangleHit> + 'r {
+        let mesh = &self.geometry.spaces[space as usize];
+        let triangles = 0..mesh.triangles.len() as u32;
         triangles.filter(|&index| !ray.excludes(index)).filter_map(|index| {
-            let corners = self.geometry.corners(index);
-            let (t, u, v) = intersect_triangle(ray, corners)?;
+            let (t, u, v) = intersect_triangle(ray, mesh.corners(index))?;
             (t > 0.0).then_some(TriangleHit { t, index, u, v })
         })
     }
@@ -29,24 +29,22 @@ impl Kernel for BruteForce<'_> {
         self.geometry
     }
 
-    fn closest_triangle(&self, ray: &LocalRay) -> Option<TriangleHit> {
-        self.hits(ray)
+    fn closest_triangle(&self, space: u32, ray: &LocalRay) -> Option<TriangleHit> {
+        self.hits(space, ray)
             .filter(|hit| hit.t <= ray.t_max)
             .min_by(|a, b| a.t.total_cmp(&b.t).then(a.index.cmp(&b.index)))
     }
 
-    fn any_triangle(&self, ray: &LocalRay) -> bool {
-        self.hits(ray).any(|hit| hit.t < ray.t_max)
+    fn any_triangle(&self, space: u32, ray: &LocalRay) -> bool {
+        self.hits(space, ray).any(|hit| hit.t < ray.t_max)
     }
 
     fn closest_solid(&self, ray: &Ray, _: &LocalRay, best: Option<Hit>) -> Option<Hit> {
         let solids = self.geometry.tree_solids.iter();
-        solids.fold(best, |best, &solid| {
-            nearer(best, self.geometry.intersect_solid(solid, ray, distance(&best)))
-        })
+        solids.fold(best, |best, &solid| closest_in_solid(self, solid, ray, best))
     }
 
     fn any_solid(&self, ray: &Ray, _: &LocalRay, t_max: f64, target: PrimitiveId) -> bool {
-        self.geometry.tree_solids.iter().any(|&solid| self.geometry.solid_occludes(solid, ray, t_max, target))
+        self.geometry.tree_solids.iter().any(|&solid| any_in_solid(self, solid, ray, t_max, target))
     }
 }

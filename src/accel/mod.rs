@@ -9,7 +9,7 @@ pub mod bvh;
 #[cfg(feature = "embree")]
 pub mod embree;
 
-use crate::geometry::{Geometry, Hit, LocalFrame, LocalRay, PrimitiveId, Ray, TriangleHit};
+use crate::geometry::{Geometry, Hit, LocalRay, PrimitiveId, Ray, Shape, TriangleHit};
 
 /// How hits of mesh triangles are found. Solids are exact at every precision.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -53,27 +53,52 @@ pub trait Accelerator: Sync {
     fn occluded(&self, ray: &Ray, t_max: f64, target: PrimitiveId) -> bool;
 }
 
-/// Finds candidates in the two local spaces of a [`Geometry`].
+/// Finds candidates in the local spaces of a [`Geometry`].
 pub trait Kernel: Sync {
     /// What it was built over.
     fn geometry(&self) -> &Geometry;
 
-    /// The hit with the smallest key (t, index) with t in (0, `ray.t_max`], of all triangles but those the ray
-    /// excludes. Called only if there are triangles. At [`Precision::Exact`] the shared leaf
-    /// ([`crate::geometry::closest_in_block`]) decides; otherwise the kernel's own test may choose the triangle, and
-    /// t, u, v are computed by [`crate::geometry::plane_hit`].
-    fn closest_triangle(&self, ray: &LocalRay) -> Option<TriangleHit>;
+    /// The hit with the smallest key (t, index) with t in (0, `ray.t_max`], of all triangles of a space but those the ray
+    /// excludes. At [`Precision::Exact`] the shared leaf ([`crate::geometry::closest_in_block`]) decides; otherwise the
+    /// kernel's own test may choose the triangle, and t, u, v are computed by [`crate::geometry::plane_hit`].
+    fn closest_triangle(&self, space: u32, ray: &LocalRay) -> Option<TriangleHit>;
 
-    /// Whether any triangle but the excluded ones is hit with t in (0, `ray.t_max`).
-    fn any_triangle(&self, ray: &LocalRay) -> bool;
+    /// Whether any triangle of a space but the excluded ones is hit with t in (0, `ray.t_max`).
+    fn any_triangle(&self, space: u32, ray: &LocalRay) -> bool;
 
     /// The closest hit among `geometry().tree_solids` that comes before `best` (or, without one, at any t), else `best`.
     /// `local` is the ray in `geometry().solid_frame`, for the nodes ([`Geometry::solid_node_bounds`]);
-    /// [`Geometry::intersect_solid`] decides with `ray`. Called only if there are such solids.
+    /// [`closest_in_solid`] decides with `ray`. Called only if there are such solids.
     fn closest_solid(&self, ray: &Ray, local: &LocalRay, best: Option<Hit>) -> Option<Hit>;
 
-    /// Whether any of `tree_solids` but `target` is hit at t in (0, t_max), by [`Geometry::solid_occludes`].
+    /// Whether any of `tree_solids` but `target` is hit at t in (0, t_max), by [`any_in_solid`].
     fn any_solid(&self, ray: &Ray, local: &LocalRay, t_max: f64, target: PrimitiveId) -> bool;
+}
+
+/// The hit of a solid if it comes before `best`, else `best`. What is in an instance is asked of the kernel.
+#[inline]
+pub fn closest_in_solid<K: Kernel>(kernel: &K, solid: u32, ray: &Ray, best: Option<Hit>) -> Option<Hit> {
+    let geometry = kernel.geometry();
+    let Shape::Instance(instance) = &geometry.solids[solid as usize].shape else {
+        return nearer(best, geometry.intersect_solid(solid, ray, distance(&best)));
+    };
+    let space = geometry.space_of(instance);
+    let reach = space.frame.widen(distance(&best) / instance.scale) * instance.scale;
+    let Some(local) = instance.localize(space, solid, ray, reach, PrimitiveId::NONE) else { return best };
+    let hit = kernel.closest_triangle(instance.space, &local);
+    nearer(best, hit.map(|hit| geometry.instance_hit(solid, instance, &local, &hit)))
+}
+
+/// Whether a solid other than `target` is hit with t in (0, t_max). What is in an instance is asked of the kernel.
+#[inline]
+pub fn any_in_solid<K: Kernel>(kernel: &K, solid: u32, ray: &Ray, t_max: f64, target: PrimitiveId) -> bool {
+    let geometry = kernel.geometry();
+    let Shape::Instance(instance) = &geometry.solids[solid as usize].shape else {
+        return target != PrimitiveId::solid(solid)
+            && geometry.intersect_solid(solid, ray, t_max).is_some_and(|hit| hit.t < t_max);
+    };
+    let local = instance.localize(geometry.space_of(instance), solid, ray, t_max, target);
+    local.is_some_and(|local| kernel.any_triangle(instance.space, &local))
 }
 
 impl<K: Kernel> Accelerator for K {
@@ -101,17 +126,20 @@ fn closest<K: Kernel>(kernel: &K, ray: &Ray) -> Option<Hit> {
     let geometry = kernel.geometry();
     let mut best: Option<Hit> = None;
     for &solid in &geometry.linear_solids {
-        best = nearer(best, geometry.intersect_solid(solid, ray, distance(&best)));
+        best = closest_in_solid(kernel, solid, ray, best);
     }
-    if !geometry.tree_solids.is_empty()
-        && let Some(local) = local_ray(&geometry.solid_frame, ray, &best)
-    {
-        best = kernel.closest_solid(ray, &local, best);
+    if !geometry.tree_solids.is_empty() {
+        let frame = &geometry.solid_frame;
+        if let Some(local) = frame.localize(ray, frame.widen(distance(&best)), NO_TRIANGLES) {
+            best = kernel.closest_solid(ray, &local, best);
+        }
     }
-    if !geometry.triangles.is_empty()
-        && let Some(local) = local_ray(&geometry.mesh_frame, ray, &best)
-    {
-        best = nearer(best, kernel.closest_triangle(&local).map(|hit| geometry.world_hit(&local, &hit)));
+    for (space, mesh) in geometry.world_spaces() {
+        let reach = mesh.frame.widen(distance(&best));
+        if let Some(local) = geometry.localize(space, ray, reach, PrimitiveId::NONE) {
+            let hit = kernel.closest_triangle(space, &local);
+            best = nearer(best, hit.map(|hit| geometry.world_hit(space, &local, &hit)));
+        }
     }
     best
 }
@@ -119,19 +147,23 @@ fn closest<K: Kernel>(kernel: &K, ray: &Ray) -> Option<Hit> {
 /// Whether anything but `target` is in the way of a ray with a unit direction.
 fn any<K: Kernel>(kernel: &K, ray: &Ray, t_max: f64, target: PrimitiveId) -> bool {
     let geometry = kernel.geometry();
-    let linear = geometry.linear_solids.iter();
-    if linear.into_iter().any(|&solid| geometry.solid_occludes(solid, ray, t_max, target)) {
+    if geometry.linear_solids.iter().any(|&solid| any_in_solid(kernel, solid, ray, t_max, target)) {
         return true;
     }
     if !geometry.tree_solids.is_empty()
-        && let Some(local) = geometry.solid_frame.localize(ray, t_max, target)
+        && let Some(local) = geometry.solid_frame.localize(ray, t_max, NO_TRIANGLES)
         && kernel.any_solid(ray, &local, t_max, target)
     {
         return true;
     }
-    !geometry.triangles.is_empty()
-        && geometry.mesh_frame.localize(ray, t_max, target).is_some_and(|local| kernel.any_triangle(&local))
+    geometry.world_spaces().any(|(space, _)| {
+        let local = geometry.localize(space, ray, t_max, target);
+        local.is_some_and(|local| kernel.any_triangle(space, &local))
+    })
 }
+
+/// For rays among solids, where no triangle is left out.
+const NO_TRIANGLES: [u32; 2] = [PrimitiveId::NO_TRIANGLE; 2];
 
 /// Whether a ray is finite and its direction has length 1, to far more than its roundings.
 fn is_unit(ray: &Ray) -> bool {
@@ -149,11 +181,6 @@ fn with_unit_direction(ray: &Ray) -> Option<(Ray, f64)> {
     let scaled = ray.direction / largest;
     let length = scaled.length();
     Some((Ray { direction: scaled / length, ..*ray }, largest * length))
-}
-
-/// The ray in a local space, for hits that may come before `best`.
-fn local_ray(frame: &LocalFrame, ray: &Ray, best: &Option<Hit>) -> Option<LocalRay> {
-    frame.localize(ray, frame.widen(distance(best)), PrimitiveId::NONE)
 }
 
 /// The first of two hits.

@@ -2,6 +2,7 @@
 
 use super::describe;
 use crate::error::{Diagnostic, Error, Result, Severity};
+use crate::geometry::MeshSpace;
 use crate::render::{CHUNK, film_bytes};
 use crate::scene;
 use crate::world::World;
@@ -84,9 +85,8 @@ fn verdict(diagnostics: &[Diagnostic]) -> String {
 /// What the compiled scene and an accelerator over it take, roughly.
 fn world_bytes(world: &World) -> usize {
     let geometry = &world.geometry;
-    size_of_val(geometry.vertices.as_slice())
-        + size_of_val(geometry.triangles.as_slice())
-        + geometry.triangles.len() * ACCEL_BYTES
+    geometry.spaces.iter().map(MeshSpace::bytes).sum::<usize>()
+        + geometry.triangle_count() * ACCEL_BYTES
         + size_of_val(geometry.solids.as_slice())
 }
 

@@ -1,7 +1,7 @@
 //! Local f32 space: where triangles and the nodes of accelerators live, and the way of a ray into it.
 
+use super::Ray;
 use super::shear::{Shear, signed_area};
-use super::{PrimitiveId, Ray};
 use crate::math::{Bounds, DVec3, Vec3, round_down, round_up};
 
 /// A space that is the world's moved by `pivot` and scaled by a power of two, for the primitives within `bounds`.
@@ -32,8 +32,8 @@ pub struct LocalRay {
     pub t_max: f64,
     /// World distance from the start of the path's ray to `origin`.
     pub shift: f64,
-    /// Triangles (or solids) that can't be hit: the one it leaves, the one it goes to.
-    excluded: [PrimitiveId; 2],
+    /// Indices of triangles that can't be hit: the one it leaves, the one it goes to.
+    excluded: [u32; 2],
 }
 
 impl LocalRay {
@@ -61,15 +61,14 @@ impl LocalRay {
     /// Whether the triangle with this index can't be hit by this ray.
     #[inline(always)]
     pub fn excludes(&self, triangle: u32) -> bool {
-        let id = PrimitiveId::triangle(triangle);
-        self.excluded[0] == id || self.excluded[1] == id
+        self.excluded[0] == triangle || self.excluded[1] == triangle
     }
 
-    /// The indices of the triangles that can't be hit, as [`LocalRay::excludes`] tells them one by one; `u32::MAX` and
-    /// others that no triangle has where there is none.
+    /// The indices of the triangles that can't be hit, as [`LocalRay::excludes`] tells them one by one;
+    /// [`PrimitiveId::NO_TRIANGLE`](super::PrimitiveId::NO_TRIANGLE) where there is none.
     #[inline(always)]
     pub(super) fn excluded_indices(&self) -> [u32; 2] {
-        self.excluded.map(PrimitiveId::bits)
+        self.excluded
     }
 
     /// `t_max` for an f32 kernel: rounded up.
@@ -88,6 +87,14 @@ impl LocalFrame {
         let bounds = Bounds { min: (world.min - pivot) * scale, max: (world.max - pivot) * scale };
         let radius = ((bounds.max - bounds.min) * 0.5).length();
         LocalFrame { pivot, scale, bounds, center: bounds.center(), radius }
+    }
+
+    /// The frame for what is within `bounds`, which may be empty, with the origin at `pivot`.
+    pub(super) fn around(bounds: Bounds, pivot: DVec3) -> LocalFrame {
+        if bounds.is_empty() {
+            return LocalFrame::new(DVec3::ZERO, Bounds { min: DVec3::ZERO, max: DVec3::ONE });
+        }
+        LocalFrame::new(pivot, bounds)
     }
 
     /// From world to local, in f64.
@@ -122,8 +129,8 @@ impl LocalFrame {
     ///
     /// A ray that starts far away is first moved, in f64, to the sphere around the bounds, so that rounding it to f32
     /// costs no more than the size of what is in here. A ray that leaves a surface is rounded away from it, for kernels
-    /// that decide in f32.
-    pub fn localize(&self, ray: &Ray, t_max: f64, target: PrimitiveId) -> Option<LocalRay> {
+    /// that decide in f32. `excluded` are the indices of the triangles that it can't hit.
+    pub fn localize(&self, ray: &Ray, t_max: f64, excluded: [u32; 2]) -> Option<LocalRay> {
         let mut origin = self.to_local(ray.origin);
         let mut shift = 0.0;
         let offset = origin - self.center;
@@ -151,7 +158,7 @@ impl LocalFrame {
             shear: Shear::onto_largest_axis(ray.direction),
             t_max: local_t_max.min(f64::from(f32::MAX)),
             shift,
-            excluded: [ray.leaving, target],
+            excluded,
         })
     }
 }

@@ -20,6 +20,9 @@
 mod ball;
 mod cuboid;
 mod frame;
+mod id;
+mod instance;
+mod mesh_space;
 mod rectangle;
 mod scene;
 mod shear;
@@ -29,50 +32,17 @@ mod triangle;
 pub use ball::Ball;
 pub use cuboid::Cuboid;
 pub use frame::{LocalFrame, LocalRay};
+pub use id::PrimitiveId;
+pub use instance::Instance;
+pub use mesh_space::{MeshPart, MeshSpace};
 pub use rectangle::Rectangle;
-pub use scene::{Geometry, MeshPart, Shape, Solid};
+pub use scene::{Geometry, Shape, Solid};
 pub use surface::SurfacePoint;
 pub use triangle::{
     TriangleBlock, TriangleHit, any_in_block, closest_in_block, intersect_triangle, plane_hit,
 };
 
 use crate::math::DVec3;
-
-/// Names a primitive of a [`Geometry`]: a triangle of a mesh, or a solid.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct PrimitiveId(u32);
-
-impl PrimitiveId {
-    /// No primitive.
-    pub const NONE: PrimitiveId = PrimitiveId(u32::MAX);
-    const SOLID: u32 = 1 << 31;
-
-    /// The triangle with this index; below 2^31.
-    pub fn triangle(index: u32) -> PrimitiveId {
-        PrimitiveId(index)
-    }
-
-    /// The solid with this index; below 2^31 - 1.
-    pub fn solid(index: u32) -> PrimitiveId {
-        PrimitiveId(index | Self::SOLID)
-    }
-
-    /// The bits: a triangle's index, or numbers from 2^31 on.
-    #[inline(always)]
-    fn bits(self) -> u32 {
-        self.0
-    }
-
-    /// The index, if this is a triangle.
-    pub fn as_triangle(self) -> Option<u32> {
-        (self.0 & Self::SOLID == 0).then_some(self.0)
-    }
-
-    /// The index, if this is a solid.
-    pub fn as_solid(self) -> Option<u32> {
-        (self.0 & Self::SOLID != 0 && self != Self::NONE).then_some(self.0 & !Self::SOLID)
-    }
-}
 
 /// A ray of a path, in world space.
 #[derive(Clone, Copy, Debug)]

@@ -1,7 +1,10 @@
 //! All primitives of a scene: flat arrays joined by indices.
 
-use super::{Ball, Cuboid, Hit, LocalFrame, LocalRay, PrimitiveId, Ray, Rectangle, TriangleHit};
-use crate::math::{Bounds, DVec3, round_down, round_up};
+use super::{
+    Ball, Cuboid, Hit, Instance, LocalFrame, LocalRay, MeshPart, MeshSpace, PrimitiveId, Ray, Rectangle,
+    TriangleHit,
+};
+use crate::math::{Bounds, round_down, round_up};
 
 /// The shape of a solid, in world space.
 #[derive(Clone, Copy, Debug)]
@@ -12,9 +15,11 @@ pub enum Shape {
     Cuboid(Cuboid),
     /// A rectangle.
     Rectangle(Rectangle),
+    /// A mesh that is in the scene several times.
+    Instance(Instance),
 }
 
-/// A primitive that is decided in f64.
+/// A primitive that is decided in f64, or an instance of a mesh.
 #[derive(Clone, Copy, Debug)]
 pub struct Solid {
     /// Index of the object in the scene.
@@ -23,28 +28,14 @@ pub struct Solid {
     pub shape: Shape,
 }
 
-/// A mesh on its way into a [`Geometry`]: corners in world space.
-#[derive(Clone, Debug, Default)]
-pub struct MeshPart {
-    /// Index of the object in the scene.
-    pub object: u32,
-    /// Corners in world space.
-    pub positions: Vec<DVec3>,
-    /// Indices into `positions`.
-    pub triangles: Vec<[u32; 3]>,
-}
-
 /// All primitives, as accelerators see them.
 #[derive(Clone, Debug)]
 pub struct Geometry {
-    /// The space of the triangles.
-    pub mesh_frame: LocalFrame,
-    /// Corners in the space of the triangles; the last one is a copy, so that 16 bytes can be read from every corner.
-    pub vertices: Vec<[f32; 3]>,
-    /// Corners of the triangles; a mesh's triangles follow each other, meshes in the order of the scene.
-    pub triangles: Vec<[u32; 3]>,
-    /// Object and first triangle of every mesh, ascending.
-    pub meshes: Vec<(u32, u32)>,
+    /// Spaces of triangles: first those of the meshes that have instances, then those of the meshes that lie in the
+    /// world.
+    pub spaces: Vec<MeshSpace>,
+    /// How many of the spaces have instances.
+    instanced: usize,
     /// The solids in the order of the scene.
     pub solids: Vec<Solid>,
     /// The space of the nodes over `tree_solids`.
@@ -61,66 +52,73 @@ const LINEAR_SOLIDS: usize = 8;
 /// A solid so many times larger than the median one would widen every node and stays out of the tree.
 const LARGE: f64 = 64.0;
 
+/// Meshes that lie in the world share a space if the smallest is at least one part in so many of the largest: so a fine
+/// mesh beside a huge one keeps its digits, and the boxes around its triangles need no padding for the size of the other.
+const SHARED_RANGE: f64 = 256.0;
+
 impl Geometry {
-    /// Collects the primitives. `solids` and `meshes` ascend by object; all numbers are finite.
+    /// Collects primitives without instances. `solids` and `meshes` ascend by object; all numbers are finite.
     pub fn new(solids: Vec<Solid>, meshes: &[MeshPart]) -> Geometry {
-        let (linear_solids, tree_solids) = split_solids(&solids);
-        let solid_bounds =
-            tree_solids.iter().fold(Bounds::EMPTY, |b, &i| b.union(solids[i as usize].bounds()));
-        let solid_frame = frame_of(solid_bounds, solid_bounds.center());
-        let corners = || meshes.iter().flat_map(|mesh| mesh.positions.iter().copied());
-        let mesh_frame = frame_of(corners().fold(Bounds::EMPTY, Bounds::with_point), median(corners));
-        let mut geometry = Geometry {
-            mesh_frame,
-            vertices: Vec::new(),
-            triangles: Vec::new(),
-            meshes: Vec::new(),
-            solids,
-            solid_frame,
-            linear_solids,
-            tree_solids,
-        };
-        for mesh in meshes {
-            let first = geometry.vertices.len() as u32;
-            geometry.meshes.push((mesh.object, geometry.triangles.len() as u32));
-            geometry
-                .vertices
-                .extend(mesh.positions.iter().map(|&p| mesh_frame.to_local(p).as_vec3().to_array()));
-            geometry.triangles.extend(mesh.triangles.iter().map(|t| t.map(|corner| corner + first)));
-        }
-        geometry.vertices.extend(geometry.vertices.last().copied());
-        geometry
+        Geometry::with_instances(solids, meshes, Vec::new())
     }
 
-    /// The corners of a triangle in local f32 coordinates.
+    /// Collects primitives; the instances among `solids` name the spaces `shared`.
+    pub fn with_instances(solids: Vec<Solid>, meshes: &[MeshPart], shared: Vec<MeshSpace>) -> Geometry {
+        let instanced = shared.len();
+        let mut spaces = shared;
+        spaces.extend(by_size(meshes).iter().map(|group| MeshSpace::new(group)));
+        let bounds: Vec<Bounds> = solids.iter().map(|solid| solid.bounds(&spaces)).collect();
+        let (linear_solids, tree_solids) = split_solids(&bounds);
+        let together = tree_solids.iter().fold(Bounds::EMPTY, |b, &i| b.union(bounds[i as usize]));
+        let solid_frame = LocalFrame::around(together, together.center());
+        Geometry { spaces, instanced, solids, solid_frame, linear_solids, tree_solids }
+    }
+
+    /// The spaces of the meshes that lie in the world, with their indices.
+    pub fn world_spaces(&self) -> impl Iterator<Item = (u32, &MeshSpace)> {
+        (self.instanced as u32..).zip(&self.spaces[self.instanced..])
+    }
+
+    /// The spaces of the meshes that have instances, which name them by their place.
+    pub fn instanced_spaces(&self) -> &[MeshSpace] {
+        &self.spaces[..self.instanced]
+    }
+
+    /// The space of the mesh that an instance shows.
     #[inline(always)]
-    pub fn corners32(&self, triangle: u32) -> [[f32; 3]; 3] {
-        self.triangles[triangle as usize].map(|corner| self.vertices[corner as usize])
+    pub fn space_of(&self, instance: &Instance) -> &MeshSpace {
+        &self.spaces[instance.space as usize]
     }
 
-    /// The corners of a triangle in local coordinates, in f64.
-    #[inline(always)]
-    pub fn corners(&self, triangle: u32) -> [DVec3; 3] {
-        self.corners32(triangle).map(|[x, y, z]| DVec3::new(x.into(), y.into(), z.into()))
+    /// Triangles in memory: those of a mesh that has instances count once.
+    pub fn triangle_count(&self) -> usize {
+        self.spaces.iter().map(|space| space.triangles.len()).sum()
     }
 
-    /// Object of a triangle, and its index in the mesh.
-    pub fn triangle_owner(&self, triangle: u32) -> (u32, u32) {
-        let after = self.meshes.partition_point(|&(_, first)| first <= triangle);
-        let (object, first) = self.meshes[after - 1];
-        (object, triangle - first)
+    /// The box around a solid in world space.
+    pub fn solid_bounds(&self, solid: u32) -> Bounds {
+        self.solids[solid as usize].bounds(&self.spaces)
+    }
+
+    /// The ray in a space of the world, for hits up to the world distance `t_max`, without the triangle `target`; `None`
+    /// if it misses everything in there.
+    pub fn localize(&self, space: u32, ray: &Ray, t_max: f64, target: PrimitiveId) -> Option<LocalRay> {
+        let body = PrimitiveId::triangle(space, 0);
+        let excluded = [ray.leaving, target].map(|id| id.triangle_beside(body));
+        self.spaces[space as usize].frame.localize(ray, t_max, excluded)
     }
 
     /// Local box of a solid in the space of `tree_solids`, widened as [`LocalFrame::padding`] says.
     pub fn solid_node_bounds(&self, solid: u32) -> ([f32; 3], [f32; 3]) {
-        let bounds = self.solids[solid as usize].bounds();
+        let bounds = self.solid_bounds(solid);
         let padding = self.solid_frame.padding();
         let low = self.solid_frame.to_local(bounds.min) - padding;
         let high = self.solid_frame.to_local(bounds.max) + padding;
         (low.to_array().map(round_down), high.to_array().map(round_up))
     }
 
-    /// The hit of a solid with t in (0, t_max]. The shared routine of every accelerator.
+    /// The hit of a solid with t in (0, t_max]. The shared routine of every accelerator; none of an instance, which only an
+    /// accelerator can look into ([`crate::accel`]).
     pub fn intersect_solid(&self, solid: u32, ray: &Ray, t_max: f64) -> Option<Hit> {
         let Solid { object, shape } = self.solids[solid as usize];
         let primitive = PrimitiveId::solid(solid);
@@ -157,67 +155,75 @@ impl Geometry {
                 let (t, part, u, v) = rectangle.intersect(ray.origin, ray.direction, t_max)?;
                 Some(hit(t, part, u, v))
             }
+            Shape::Instance(_) => None,
         }
     }
 
-    /// Whether a solid other than `target` is hit with t in (0, t_max).
-    pub fn solid_occludes(&self, solid: u32, ray: &Ray, t_max: f64, target: PrimitiveId) -> bool {
-        target != PrimitiveId::solid(solid)
-            && self.intersect_solid(solid, ray, t_max).is_some_and(|h| h.t < t_max)
+    /// The hit of the local ray `ray` in a space of the world as a hit of the path's ray.
+    pub fn world_hit(&self, space: u32, ray: &LocalRay, hit: &TriangleHit) -> Hit {
+        let mesh = &self.spaces[space as usize];
+        let (object, part) = mesh.triangle_owner(hit.index);
+        let t = mesh.outer_distance(ray, hit).max(f64::MIN_POSITIVE);
+        Hit { t, object, primitive: PrimitiveId::triangle(space, hit.index), part, u: hit.u, v: hit.v }
     }
 
-    /// The hit of the local ray `ray` as a hit of the path's ray: distance in world units from the start of that one.
-    pub fn world_hit(&self, ray: &LocalRay, hit: &TriangleHit) -> Hit {
-        let (object, part) = self.triangle_owner(hit.index);
-        let t = (ray.shift + hit.t / self.mesh_frame.scale).max(f64::MIN_POSITIVE);
-        Hit { t, object, primitive: PrimitiveId::triangle(hit.index), part, u: hit.u, v: hit.v }
+    /// The hit of the local ray `ray` in the space of `instance`, the solid `solid`, as a hit of the path's ray.
+    pub fn instance_hit(&self, solid: u32, instance: &Instance, ray: &LocalRay, hit: &TriangleHit) -> Hit {
+        let distance = self.space_of(instance).outer_distance(ray, hit) * instance.scale;
+        Hit {
+            t: distance.max(f64::MIN_POSITIVE),
+            object: self.solids[solid as usize].object,
+            primitive: PrimitiveId::of_instance(solid, hit.index),
+            part: hit.index,
+            u: hit.u,
+            v: hit.v,
+        }
     }
 }
 
 impl Solid {
     /// The box around it in world space.
-    pub fn bounds(&self) -> Bounds {
+    fn bounds(&self, spaces: &[MeshSpace]) -> Bounds {
         match self.shape {
             Shape::Ball(ball) => ball.bounds(),
             Shape::Cuboid(cuboid) => cuboid.bounds(),
             Shape::Rectangle(rectangle) => rectangle.bounds(),
+            Shape::Instance(instance) => instance.bounds(&spaces[instance.space as usize]),
         }
-    }
-
-    fn extent(&self) -> f64 {
-        let bounds = self.bounds();
-        (bounds.max - bounds.min).max_element()
     }
 }
 
-fn frame_of(bounds: Bounds, pivot: DVec3) -> LocalFrame {
-    if bounds.is_empty() {
-        return LocalFrame::new(DVec3::ZERO, Bounds { min: DVec3::ZERO, max: DVec3::ONE });
+/// The meshes that have triangles, in groups that share a space (see [`SHARED_RANGE`]), each in the order of the scene.
+fn by_size(meshes: &[MeshPart]) -> Vec<Vec<&MeshPart>> {
+    let around = |mesh: &MeshPart| mesh.positions.iter().fold(Bounds::EMPTY, |b, &p| b.with_point(p));
+    let mut sized: Vec<(f64, usize)> = (0..meshes.len())
+        .filter(|&place| !meshes[place].triangles.is_empty())
+        .map(|place| (extent(around(&meshes[place])), place))
+        .collect();
+    sized.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let mut groups = Vec::new();
+    while let Some(&(largest, _)) = sized.first() {
+        let end = sized.partition_point(|(extent, _)| extent * SHARED_RANGE >= largest);
+        let mut places: Vec<usize> = sized.drain(..end.max(1)).map(|(_, place)| place).collect();
+        places.sort_unstable();
+        groups.push(places.into_iter().map(|place| &meshes[place]).collect());
     }
-    LocalFrame::new(pivot, bounds)
+    groups
 }
 
 /// Indices of the solids that every ray is tried against, and of those that need a tree.
-fn split_solids(solids: &[Solid]) -> (Vec<u32>, Vec<u32>) {
-    let all = 0..solids.len() as u32;
-    if solids.len() <= LINEAR_SOLIDS {
+fn split_solids(bounds: &[Bounds]) -> (Vec<u32>, Vec<u32>) {
+    let all = 0..bounds.len() as u32;
+    if bounds.len() <= LINEAR_SOLIDS {
         return (all.collect(), Vec::new());
     }
-    let mut extents: Vec<f64> = solids.iter().map(Solid::extent).collect();
-    extents.sort_by(f64::total_cmp);
-    let cut = (LARGE * extents[extents.len() / 2]).max(extents[extents.len() - 1 - LINEAR_SOLIDS]);
-    all.partition(|&i| solids[i as usize].extent() > cut)
+    let extents: Vec<f64> = bounds.iter().map(|bounds| extent(*bounds)).collect();
+    let mut sorted = extents.clone();
+    sorted.sort_by(f64::total_cmp);
+    let cut = (LARGE * sorted[sorted.len() / 2]).max(sorted[sorted.len() - 1 - LINEAR_SOLIDS]);
+    all.partition(|&i| extents[i as usize] > cut)
 }
 
-/// The component-wise lower median: robust against a few far triangles.
-fn median<I: Iterator<Item = DVec3>>(points: impl Fn() -> I) -> DVec3 {
-    let component = |axis: usize| {
-        let mut values: Vec<f64> = points().map(|p| p[axis]).collect();
-        if values.is_empty() {
-            return 0.0;
-        }
-        let middle = (values.len() - 1) / 2;
-        *values.select_nth_unstable_by(middle, f64::total_cmp).1
-    };
-    DVec3::new(component(0), component(1), component(2))
+fn extent(bounds: Bounds) -> f64 {
+    (bounds.max - bounds.min).max_element()
 }

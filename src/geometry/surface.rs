@@ -20,6 +20,11 @@ pub struct SurfacePoint {
 }
 
 impl SurfacePoint {
+    /// A point of a surface that has no inside; it belongs to no primitive yet.
+    pub(super) fn of_sheet(position: DVec3, normal: DVec3, error: DVec3) -> SurfacePoint {
+        SurfacePoint { position, normal, error, primitive: PrimitiveId::NONE, closed: false }
+    }
+
     /// A ray that leaves in the unit direction `direction`. Its origin is moved by the error bound along the normal
     /// (Pharr, Jakob, Humphreys, "Physically Based Rendering" 4th ed., 6.8.6), here in f64.
     pub fn leave(&self, direction: DVec3) -> Ray {
@@ -63,16 +68,15 @@ impl SurfacePoint {
 }
 
 /// Roundings of a position: those of its own computation, of moving it and of the next ray's first steps.
-const ROUNDINGS: f64 = 16.0 * EPSILON;
+pub(super) const ROUNDINGS: f64 = 16.0 * EPSILON;
 
 impl Geometry {
     /// The point of a hit of `ray`.
     pub fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
-        if let Some(solid) = hit.primitive.as_solid() {
-            return self.solid_surface(solid, ray, hit);
+        match hit.primitive.as_solid() {
+            Some(solid) => self.solid_surface(solid, ray, hit),
+            None => self.triangle_point(hit.primitive, hit.u, hit.v),
         }
-        let index = hit.primitive.as_triangle().unwrap_or_default();
-        self.triangle_point(index, hit.u, hit.v)
     }
 
     fn solid_surface(&self, solid: u32, ray: &Ray, hit: &Hit) -> SurfacePoint {
@@ -90,6 +94,7 @@ impl Geometry {
             Shape::Rectangle(rectangle) => {
                 (rectangle.center, rectangle.offset_at(hit.u, hit.v), rectangle.normal)
             }
+            Shape::Instance(_) => return self.triangle_point(hit.primitive, hit.u, hit.v),
         };
         self.solid_point(solid, center, offset, normal)
     }
@@ -101,6 +106,7 @@ impl Geometry {
             Shape::Ball(ball) => ball.radius,
             Shape::Cuboid(cuboid) => cuboid.half.length(),
             Shape::Rectangle(rectangle) => rectangle.edge_u.length() + rectangle.edge_v.length(),
+            Shape::Instance(_) => offset.length(),
         };
         let position = center + offset;
         SurfacePoint {
@@ -108,23 +114,17 @@ impl Geometry {
             normal,
             error: (center.abs() + size) * ROUNDINGS,
             primitive: PrimitiveId::solid(solid),
-            closed: !matches!(self.solids[solid as usize].shape, Shape::Rectangle(_)),
+            closed: matches!(self.solids[solid as usize].shape, Shape::Ball(_) | Shape::Cuboid(_)),
         }
     }
 
-    /// The point of a triangle with these weights of its second and third corner.
-    pub fn triangle_point(&self, triangle: u32, u: f64, v: f64) -> SurfacePoint {
-        let [a, b, c] = self.corners(triangle);
-        let (ab, ac) = (b - a, c - a);
-        let local = a + ab * u + ac * v;
-        let size = a.abs() + ab.abs() + ac.abs();
-        SurfacePoint {
-            position: self.mesh_frame.to_world(local),
-            // Edges of f32 numbers in [2^-149, 2]: their products do not underflow in f64.
-            normal: ab.cross(ac).normalize(),
-            error: (self.mesh_frame.pivot.abs() + size / self.mesh_frame.scale) * ROUNDINGS,
-            primitive: PrimitiveId::triangle(triangle),
-            closed: false,
-        }
+    /// The point of a triangle, of an instance or not, with these weights of its second and third corner.
+    pub fn triangle_point(&self, primitive: PrimitiveId, u: f64, v: f64) -> SurfacePoint {
+        let triangle = primitive.as_triangle().unwrap_or_default();
+        let point = match primitive.as_solid().map(|solid| self.solids[solid as usize].shape) {
+            Some(Shape::Instance(instance)) => instance.point(self.space_of(&instance), triangle, u, v),
+            _ => self.spaces[primitive.space().unwrap_or_default() as usize].point(triangle, u, v),
+        };
+        SurfacePoint { primitive, ..point }
     }
 }

@@ -2,38 +2,43 @@
 
 use super::World;
 use super::light::Lights;
+use super::meshes::{Placement, SharedMeshes, rounding};
 use super::requires::Requires;
-use super::shading::ShadingNormals;
+use super::shading::NormalsBuilder;
 use super::sky::{Sky, SkyKind};
 use crate::error::{Diagnostic, Error, Result, Severity};
 use crate::geometry::{Ball, Cuboid, Geometry, MeshPart, Rectangle, Shape, Solid};
 use crate::material::{ClearCoat, Diffuse, Material, Reflective, Refractive};
 use crate::math::{Bounds, DMat3, DVec3, Rgb, sin_cos_degrees};
-use crate::scene::desc::{Axes, MaterialKind, MeshDesc, ObjectDesc, SceneDesc, ShapeDesc};
+use crate::scene::desc::{MaterialKind, ObjectDesc, SceneDesc, ShapeDesc};
 
 impl World {
     /// Compiles a scene. Fails where an object lies beyond what numbers can hold.
     pub fn compile(desc: &SceneDesc) -> Result<World> {
         countable(&desc.objects)?;
         let origin = median_position(&desc.objects);
-        let mut parts = Parts::default();
+        let mut parts = Parts { shared: SharedMeshes::of(&desc.objects), ..Parts::default() };
         let mut problems = Vec::new();
         for (index, object) in desc.objects.iter().enumerate() {
-            parts.add(index as u32, object, origin);
-            if !parts.last_is_finite() {
+            let (bounds, size) = parts.add(index as u32, object, origin);
+            let within = |p: DVec3| p.is_finite() && p.abs().max_element() < LARGEST;
+            if !(within(bounds.min) && within(bounds.max)) {
                 problems.push(out_of_range(
                     object,
                     format!("reaches farther than {LARGEST:e} units from the middle of the scene"),
                 ));
-            } else if parts.last_extent() < SMALLEST {
+            } else if size < SMALLEST {
                 problems.push(out_of_range(object, format!("is smaller than {SMALLEST:e} units")));
             }
         }
         if !problems.is_empty() {
             return Err(Error::Scene(problems));
         }
-        let geometry = Geometry::new(parts.solids, &parts.meshes);
-        let mesh_rounding = mesh_rounding(&geometry, &parts.meshes);
+        let Parts { solids, meshes, shared, normals } = parts;
+        let SharedMeshes { spaces, rounding: shared_rounding, .. } = shared;
+        let geometry = Geometry::with_instances(solids, &meshes, spaces);
+        let mesh_rounding = mesh_rounding(&geometry, &meshes, &shared_rounding, desc.objects.len());
+        drop(meshes);
         let emission: Vec<Rgb> =
             desc.objects.iter().map(|object| emission_of(&object.material.kind)).collect();
         let sky = Sky::new(&desc.environment);
@@ -46,7 +51,7 @@ impl World {
             origin,
             materials: desc.objects.iter().map(|object| material_of(&object.material.kind)).collect(),
             emission,
-            normals: parts.normals,
+            normals: normals.finish(),
             mesh_rounding,
         };
         world.requires = Requires::of(desc, &world);
@@ -74,15 +79,24 @@ fn countable(objects: &[ObjectDesc]) -> Result<()> {
 /// Indices of triangles, corners and normals stay below this.
 const MOST_INDICES: usize = 0x7fff_ffff;
 
-/// By how much, at most, each mesh's corners have been moved along an axis when they were rounded.
-fn mesh_rounding(geometry: &Geometry, meshes: &[MeshPart]) -> Vec<f64> {
-    let mut corners = geometry.vertices.iter();
-    let moved = |(&world, &[x, y, z]): (&DVec3, &[f32; 3])| {
-        let rounded = DVec3::new(x.into(), y.into(), z.into());
-        (geometry.mesh_frame.to_local(world) - rounded).abs().max_element() / geometry.mesh_frame.scale
-    };
-    let most = |mesh: &MeshPart| mesh.positions.iter().zip(corners.by_ref()).map(moved).fold(0.0, f64::max);
-    meshes.iter().map(most).collect()
+/// By how much, at most, the corners of each object's mesh have been moved along an axis when they were rounded.
+fn mesh_rounding(geometry: &Geometry, meshes: &[MeshPart], shared: &[f64], objects: usize) -> Vec<f64> {
+    let mut moved = vec![0.0; objects];
+    let part_of =
+        |object: u32| meshes.binary_search_by_key(&object, |mesh| mesh.object).ok().map(|i| &meshes[i]);
+    for (_, space) in geometry.world_spaces() {
+        let mut first = 0;
+        for mesh in space.meshes.iter().filter_map(|&(object, _)| part_of(object)) {
+            moved[mesh.object as usize] = rounding(space, mesh, first);
+            first += mesh.positions.len();
+        }
+    }
+    for solid in &geometry.solids {
+        if let Shape::Instance(instance) = solid.shape {
+            moved[solid.object as usize] = shared[instance.space as usize] * instance.scale;
+        }
+    }
+    moved
 }
 
 /// The component-wise lower median of the objects' positions: a number that stands in the file, so that moving the
@@ -113,119 +127,66 @@ fn position_of(shape: &ShapeDesc) -> DVec3 {
 struct Parts {
     solids: Vec<Solid>,
     meshes: Vec<MeshPart>,
-    normals: ShadingNormals,
-    triangles: usize,
-    last_is_mesh: bool,
+    shared: SharedMeshes,
+    normals: NormalsBuilder,
 }
 
 impl Parts {
-    fn add(&mut self, index: u32, object: &ObjectDesc, origin: DVec3) {
+    /// Adds an object; the box around it, and its shortest edge, its radius, or the largest side of a mesh.
+    fn add(&mut self, index: u32, object: &ObjectDesc, origin: DVec3) -> (Bounds, f64) {
         let at = position_of(&object.shape) - origin;
-        let shape = match &object.shape {
-            &ShapeDesc::Ball { radius, .. } => Shape::Ball(Ball { center: at, radius }),
+        let (shape, bounds, size) = match &object.shape {
+            &ShapeDesc::Ball { radius, .. } => {
+                let ball = Ball { center: at, radius };
+                (Shape::Ball(ball), ball.bounds(), radius)
+            }
             &ShapeDesc::Box { size, rotation, .. } => {
-                Shape::Cuboid(Cuboid { center: at, half: size * 0.5, rotation: rotation_matrix(rotation) })
+                let cuboid = Cuboid { center: at, half: size * 0.5, rotation: rotation_matrix(rotation) };
+                (Shape::Cuboid(cuboid), cuboid.bounds(), size.min_element())
             }
             &ShapeDesc::Rectangle { width, height, rotation, .. } => {
                 let r = rotation_matrix(rotation);
                 // Seen from its front, which faces -x, +y is to the left.
                 let (half_u, half_v) =
                     (r * DVec3::new(0.0, -0.5 * width, 0.0), r * DVec3::new(0.0, 0.0, 0.5 * height));
-                Shape::Rectangle(Rectangle::new(at, half_u, half_v))
+                let rectangle = Rectangle::new(at, half_u, half_v);
+                let (u, v) = (rectangle.edge_u.abs(), rectangle.edge_v.abs());
+                (Shape::Rectangle(rectangle), rectangle.bounds(), u.max_element().min(v.max_element()))
             }
             ShapeDesc::TriangleMesh { mesh, scale, rotation, axes, smooth, .. } => {
-                let r = rotation_matrix(*rotation);
-                return self.add_mesh(index, mesh, &Placement { r, scale: *scale, at, axes: *axes }, *smooth);
+                let placement = Placement::new(rotation_matrix(*rotation), *axes, *scale, at);
+                let space = self.shared.space_of(object);
+                if *smooth {
+                    self.normals.add(index, mesh, &placement, space.is_some());
+                }
+                let Some(space) = space else { return self.add_mesh(placement.part(index, mesh)) };
+                let instance = placement.instance(space);
+                let bounds = instance.bounds(&self.shared.spaces[space as usize]);
+                (Shape::Instance(instance), bounds, extent(bounds))
             }
         };
-        self.last_is_mesh = false;
         self.solids.push(Solid { object: index, shape });
+        (bounds, size)
     }
 
-    fn add_mesh(&mut self, object: u32, mesh: &MeshDesc, placement: &Placement, smooth: bool) {
-        let positions = mesh.positions.iter().map(|&p| placement.point(p)).collect();
-        let triangles: Vec<[u32; 3]> = mesh.triangles.iter().map(|&t| placement.winding(t)).collect();
-        if smooth && !mesh.normal_indices.is_empty() {
-            let first = self.normals.normals.len() as u32;
-            self.normals.normals.extend(mesh.normals.iter().map(|&n| placement.normal(n)));
-            self.normals.indices.resize(self.triangles, FLAT);
-            let shifted = |index: u32| if index == u32::MAX { index } else { index + first };
-            self.normals
-                .indices
-                .extend(mesh.normal_indices.iter().map(|&t| placement.winding(t).map(shifted)));
-        }
-        self.triangles += triangles.len();
-        if !self.normals.indices.is_empty() {
-            self.normals.indices.resize(self.triangles, FLAT);
-        }
-        self.last_is_mesh = true;
-        self.meshes.push(MeshPart { object, positions, triangles });
-    }
-
-    fn last_is_finite(&self) -> bool {
-        let small = |p: DVec3| p.is_finite() && p.abs().max_element() < LARGEST;
-        if self.last_is_mesh {
-            self.meshes.last().is_some_and(|mesh| mesh.positions.iter().all(|&p| small(p)))
-        } else {
-            self.solids.last().is_some_and(|solid| small(solid.bounds().min) && small(solid.bounds().max))
-        }
+    /// Adds a mesh that lies in the world.
+    fn add_mesh(&mut self, mesh: MeshPart) -> (Bounds, f64) {
+        let bounds = mesh.positions.iter().fold(Bounds::EMPTY, |bounds, &p| bounds.with_point(p));
+        self.meshes.push(mesh);
+        let nowhere = Bounds { min: DVec3::ZERO, max: DVec3::ZERO };
+        if bounds.is_empty() { (nowhere, 1.0) } else { (bounds, extent(bounds)) }
     }
 }
 
-impl Parts {
-    /// The shortest edge, the radius, or the largest side of a mesh.
-    fn last_extent(&self) -> f64 {
-        if self.last_is_mesh {
-            let corners = self.meshes.last().map_or(&[][..], |mesh| &mesh.positions);
-            let bounds = corners.iter().fold(Bounds::EMPTY, |bounds, &p| bounds.with_point(p));
-            return if bounds.is_empty() { 1.0 } else { (bounds.max - bounds.min).max_element() };
-        }
-        self.solids.last().map_or(1.0, |solid| match solid.shape {
-            Shape::Ball(ball) => ball.radius,
-            Shape::Cuboid(cuboid) => 2.0 * cuboid.half.min_element(),
-            Shape::Rectangle(r) => r.edge_u.abs().max_element().min(r.edge_v.abs().max_element()),
-        })
-    }
+fn extent(bounds: Bounds) -> f64 {
+    (bounds.max - bounds.min).max_element()
 }
-
-const FLAT: [u32; 3] = [u32::MAX; 3];
 
 /// Fourth powers of lengths must stay within the range of f64.
 pub(super) const LARGEST: f64 = 1e75;
 
 /// Fourth powers of lengths must not vanish.
 const SMALLEST: f64 = 1e-75;
-
-/// How the coordinates of a mesh file become the world's.
-struct Placement {
-    r: DMat3,
-    scale: f64,
-    at: DVec3,
-    axes: Axes,
-}
-
-impl Placement {
-    fn turned([x, y, z]: [f64; 3], axes: Axes) -> DVec3 {
-        match axes {
-            Axes::YUp => DVec3::new(x, -z, y),
-            Axes::ZUp => DVec3::new(x, y, z),
-            Axes::SwapYZ => DVec3::new(x, z, y),
-        }
-    }
-
-    fn point(&self, p: [f64; 3]) -> DVec3 {
-        self.r * (Self::turned(p, self.axes) * self.scale) + self.at
-    }
-
-    fn normal(&self, n: [f32; 3]) -> [f32; 3] {
-        (self.r * Self::turned(n.map(f64::from), self.axes)).normalize_or_zero().as_vec3().to_array()
-    }
-
-    /// A mirrored mesh keeps its outside: the corners are taken the other way round.
-    fn winding(&self, [a, b, c]: [u32; 3]) -> [u32; 3] {
-        if self.axes == Axes::SwapYZ { [a, c, b] } else { [a, b, c] }
-    }
-}
 
 /// Turns about the world's x, then y, then z axis, by angles in degrees.
 fn rotation_matrix(degrees: DVec3) -> DMat3 {
@@ -272,6 +233,7 @@ impl Requires {
     /// Of an empty scene.
     const NOTHING: Requires = Requires {
         triangles: 0,
+        instances: 0,
         linear_solids: 0,
         tree_solids: 0,
         area_lights: 0,

@@ -8,6 +8,7 @@ mod camera;
 mod compile;
 mod guards;
 pub mod light;
+mod meshes;
 mod requires;
 mod shading;
 mod sky;
@@ -42,7 +43,8 @@ pub struct World {
     emission: Vec<Rgb>,
     /// Normals of the mesh files, where they are used.
     normals: ShadingNormals,
-    /// By how much, at most, the corners of each mesh were moved along an axis when they were rounded to f32.
+    /// By how much, at most, the corners of each object's mesh were moved along an axis when they were rounded to f32; 0
+    /// of other objects.
     mesh_rounding: Vec<f64>,
 }
 

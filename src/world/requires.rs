@@ -2,6 +2,7 @@
 
 use super::World;
 use super::sky::SkyKind;
+use crate::geometry::Shape;
 use crate::material::Material;
 use crate::scene::desc::{ApertureDesc, SceneDesc};
 use serde::Serialize;
@@ -10,11 +11,13 @@ use std::fmt;
 /// What the renderer switches on for a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Requires {
-    /// Triangles of meshes: a tree in f32.
+    /// Triangles of meshes, in trees in f32; those of a mesh that several objects show count once.
     pub triangles: usize,
-    /// Balls, boxes and rectangles that every ray is tried against.
+    /// Objects that show a mesh which others show too: they share its triangles and its tree.
+    pub instances: usize,
+    /// Balls, boxes, rectangles and instances that every ray is tried against.
     pub linear_solids: usize,
-    /// Balls, boxes and rectangles in a tree of their own.
+    /// Balls, boxes, rectangles and instances in a tree of their own.
     pub tree_solids: usize,
     /// Objects that emit.
     pub area_lights: usize,
@@ -34,7 +37,13 @@ impl Requires {
     pub(super) fn of(desc: &SceneDesc, world: &World) -> Requires {
         let diffuse = world.materials.iter().any(|material| !material.is_delta());
         Requires {
-            triangles: world.geometry.triangles.len(),
+            triangles: world.geometry.triangle_count(),
+            instances: world
+                .geometry
+                .solids
+                .iter()
+                .filter(|solid| matches!(solid.shape, Shape::Instance(_)))
+                .count(),
             linear_solids: world.geometry.linear_solids.len(),
             tree_solids: world.geometry.tree_solids.len(),
             area_lights: world.lights.count(),
@@ -43,7 +52,7 @@ impl Requires {
             lens: match desc.camera.aperture {
                 ApertureDesc::DepthOfField(size) | ApertureDesc::Radius(size) => size > 0.0,
             },
-            shading_normals: !world.normals.indices.is_empty(),
+            shading_normals: !world.normals.is_empty(),
             refraction: world.materials.iter().any(|material| matches!(material, Material::Refractive(_))),
         }
     }
@@ -55,8 +64,16 @@ impl fmt::Display for Requires {
         if self.triangles > 0 {
             parts.push(format!("a tree over {}", counted(self.triangles, "triangle")));
         }
+        let solids = if self.instances > 0 {
+            "balls, boxes, rectangles and instances"
+        } else {
+            "balls, boxes and rectangles"
+        };
+        if self.instances > 0 {
+            parts.push(format!("{} of shared meshes", counted(self.instances, "instance")));
+        }
         if self.tree_solids > 0 {
-            parts.push(format!("a tree over {} balls, boxes and rectangles", self.tree_solids));
+            parts.push(format!("a tree over {} {solids}", self.tree_solids));
         }
         if self.linear_solids > 0 {
             parts.push(format!("{} without a tree", counted(self.linear_solids, "shape")));

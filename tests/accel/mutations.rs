@@ -14,7 +14,7 @@ use crate::support::compare::differences;
 use crate::support::rays::rays;
 use crate::support::scenes::scene;
 
-/// The shared leaf over blocks whose boxes are tried first: the smallest accelerator, which is then broken.
+/// The shared leaf, over one space, in blocks whose boxes are tried first: the smallest accelerator, which is then broken.
 struct Blocks<'g> {
     geometry: &'g Geometry,
     blocks: Vec<TriangleBlock>,
@@ -24,7 +24,7 @@ struct Blocks<'g> {
 
 impl<'g> Blocks<'g> {
     fn new(geometry: &'g Geometry, padding: f32) -> Blocks<'g> {
-        Blocks { geometry, blocks: triangle_blocks(geometry), padding }
+        Blocks { geometry, blocks: triangle_blocks(&geometry.spaces[0]), padding }
     }
 
     fn visited<'r>(&'r self, ray: &'r LocalRay) -> impl Iterator<Item = &'r TriangleBlock> {
@@ -48,7 +48,7 @@ impl Kernel for Blocks<'_> {
         self.geometry
     }
 
-    fn closest_triangle(&self, ray: &LocalRay) -> Option<TriangleHit> {
+    fn closest_triangle(&self, _: u32, ray: &LocalRay) -> Option<TriangleHit> {
         let mut best = None;
         for block in self.visited(ray) {
             closest_in_block(block, ray, &mut best);
@@ -56,7 +56,7 @@ impl Kernel for Blocks<'_> {
         best
     }
 
-    fn any_triangle(&self, ray: &LocalRay) -> bool {
+    fn any_triangle(&self, _: u32, ray: &LocalRay) -> bool {
         self.visited(ray).any(|block| any_in_block(block, ray))
     }
 
@@ -77,19 +77,19 @@ impl<K: Kernel> Kernel for LastOfTies<K> {
         self.0.geometry()
     }
 
-    fn closest_triangle(&self, ray: &LocalRay) -> Option<TriangleHit> {
-        let first = self.0.closest_triangle(ray)?;
-        let others = (first.index..self.geometry().triangles.len() as u32).rev();
+    fn closest_triangle(&self, space: u32, ray: &LocalRay) -> Option<TriangleHit> {
+        let first = self.0.closest_triangle(space, ray)?;
+        let others = (first.index..self.geometry().spaces[space as usize].triangles.len() as u32).rev();
         let mut ties = others.filter_map(|index| {
-            let corners = self.geometry().corners(index);
+            let corners = self.geometry().spaces[space as usize].corners(index);
             let (t, u, v) = intersect_triangle(ray, corners)?;
             (t == first.t).then_some(TriangleHit { t, index, u, v })
         });
         ties.next()
     }
 
-    fn any_triangle(&self, ray: &LocalRay) -> bool {
-        self.0.any_triangle(ray)
+    fn any_triangle(&self, space: u32, ray: &LocalRay) -> bool {
+        self.0.any_triangle(space, ray)
     }
 
     fn closest_solid(&self, ray: &Ray, local: &LocalRay, best: Option<Hit>) -> Option<Hit> {
@@ -132,7 +132,7 @@ fn a_broken_lane_is_reported() {
         let mut kernel = Blocks::new(geometry, 1e-4);
         for block in &mut kernel.blocks {
             let kept = block.indices().enumerate().filter(|&(lane, _)| lane != 3);
-            *block = TriangleBlock::new(kept.map(|(_, index)| (index, geometry.corners32(index))));
+            *block = TriangleBlock::new(kept.map(|(_, index)| (index, geometry.spaces[0].corners32(index))));
         }
         kernel
     };

@@ -2,7 +2,7 @@
 
 use pathtracer::accel::bvh::{Bvh, triangle_blocks};
 use pathtracer::accel::{Accelerator, BuildOptions, Isa, Precision};
-use pathtracer::geometry::{Geometry, MeshPart, Ray};
+use pathtracer::geometry::{Geometry, MeshPart, MeshSpace, Ray};
 use pathtracer::math::DVec3;
 
 use super::native;
@@ -36,7 +36,7 @@ fn nothing_makes_a_valid_tree() {
     assert_valid("empty", &geometry);
     let ray = Ray::new(DVec3::ZERO, DVec3::X);
     assert_eq!(native(&geometry).intersect(&ray), None);
-    assert!(triangle_blocks(&geometry).is_empty());
+    assert!(triangle_blocks(&MeshSpace::new(&[])).is_empty());
 }
 
 #[test]
@@ -81,10 +81,12 @@ fn huge_and_tiny_coordinates_make_a_valid_tree() {
 #[test]
 fn blocks_hold_every_triangle_once() {
     let geometry = of_mesh(meshes::terrain(30, 0.2, 66));
-    let mut found: Vec<u32> =
-        triangle_blocks(&geometry).iter().flat_map(|block| block.indices().collect::<Vec<_>>()).collect();
+    let mut found: Vec<u32> = triangle_blocks(&geometry.spaces[0])
+        .iter()
+        .flat_map(|block| block.indices().collect::<Vec<_>>())
+        .collect();
     found.sort_unstable();
-    assert_eq!(found, (0..geometry.triangles.len() as u32).collect::<Vec<_>>());
+    assert_eq!(found, (0..geometry.spaces[0].triangles.len() as u32).collect::<Vec<_>>());
 }
 
 #[test]
@@ -93,7 +95,7 @@ fn meshes_take_at_most_90_bytes_a_triangle() {
         [meshes::sphere(1.0, 300, 0.1, 71), meshes::terrain(200, 0.2, 72), meshes::soup(50_000, 0.1, 73)]
     {
         let geometry = of_mesh(mesh);
-        let bytes = native(&geometry).bytes() as f64 / geometry.triangles.len() as f64;
+        let bytes = native(&geometry).bytes() as f64 / geometry.spaces[0].triangles.len() as f64;
         assert!(bytes <= 90.0, "{bytes} bytes a triangle");
     }
 }

@@ -81,8 +81,8 @@ fn distances_to_a_tilted_big_floor_are_exact_to_f32() {
 /// Distance along a ray to the plane of a triangle, in double-double.
 fn plane_distance(geometry: &Geometry, triangle: u32, ray: &Ray) -> f64 {
     let dd = |p: DVec3| p.to_array().map(DoubleDouble::from);
-    let frame = &geometry.mesh_frame;
-    let [a, b, c] = geometry.corners(triangle).map(dd);
+    let frame = &geometry.spaces[0].frame;
+    let [a, b, c] = geometry.spaces[0].corners(triangle).map(dd);
     let sub = |p: [DoubleDouble; 3], q: [DoubleDouble; 3]| [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
     let dot = |p: [DoubleDouble; 3], q: [DoubleDouble; 3]| p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
     let (e, f) = (sub(b, a), sub(c, a));

@@ -4,7 +4,9 @@ use super::{accelerators, watertight_accelerators};
 use crate::support::meshes;
 use crate::support::random::Random;
 use pathtracer::accel::{Accelerator, Precision};
-use pathtracer::geometry::{Ball, Cuboid, Geometry, MeshPart, Ray, Rectangle, Shape, Solid, SurfacePoint};
+use pathtracer::geometry::{
+    Ball, Cuboid, Geometry, MeshPart, PrimitiveId, Ray, Rectangle, Shape, Solid, SurfacePoint,
+};
 use pathtracer::math::{DMat3, DVec3};
 
 /// Gaps of a few 1e-5 between bodies of size 1, and smaller ones.
@@ -59,13 +61,13 @@ fn mesh_and_ball(size: f64, gap: f64, random: &mut Random) -> (Geometry, Surface
     let mesh = MeshPart { object: 1, ..meshes::moved(meshes::sphere(size, 40, 0.02, 5), random.direction()) };
     // Where the triangle is once its corners are rounded, which the ball has no part in.
     let alone = Geometry::new(Vec::new(), std::slice::from_ref(&mesh));
-    let index = random.index(alone.triangles.len()) as u32;
-    let below = alone.triangle_point(index, 1.0 / 3.0, 1.0 / 3.0);
+    let index = random.index(alone.spaces[0].triangles.len()) as u32;
+    let below = alone.triangle_point(PrimitiveId::triangle(0, index), 1.0 / 3.0, 1.0 / 3.0);
     let outward = if below.normal.dot(below.position) > 0.0 { below.normal } else { -below.normal };
     let center = below.position + outward * (gap + 1.0);
     let geometry = Geometry::new(vec![solid(0, Shape::Ball(Ball { center, radius: 1.0 }))], &[mesh]);
     let on_ball = geometry.solid_point(0, center, -outward, -outward);
-    let below = geometry.triangle_point(index, 1.0 / 3.0, 1.0 / 3.0);
+    let below = geometry.triangle_point(PrimitiveId::triangle(0, index), 1.0 / 3.0, 1.0 / 3.0);
     (geometry, on_ball, below)
 }
 

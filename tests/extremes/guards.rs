@@ -97,8 +97,8 @@ fn a_solid_near_its_position_error_is_warned_of_and_below_it_refused() {
 
 #[test]
 fn a_mesh_that_rounding_distorts_is_warned_of_and_refused_when_nothing_is_left() {
-    // Two meshes share the space that corners are rounded in.
-    let far = |size| seen(vec![tetrahedron(DVec3::ZERO, 1.0), tetrahedron(DVec3::new(1e6, 3e5, 7e5), size)]);
+    // Two meshes of a size share the space that corners are rounded in.
+    let far = |size| seen(vec![tetrahedron(DVec3::ZERO, size), tetrahedron(DVec3::new(1e6, 3e5, 7e5), size)]);
     assert_said(&far(1e3), &[]);
     let said_of = |size| {
         let all = said(&far(size));
@@ -113,6 +113,15 @@ fn a_mesh_that_rounding_distorts_is_warned_of_and_refused_when_nothing_is_left()
     );
     let (error, line, message) = said_of(1e-3);
     assert!(error && line == Some(2), "{message}");
+}
+
+#[test]
+fn a_fine_mesh_beside_a_huge_one_keeps_its_digits() {
+    let at = DVec3::new(0.3, 0.2, 0.1);
+    assert_said(
+        &seen(vec![tetrahedron(DVec3::Z * -2e6, 1e6), tetrahedron(at, 1.0), tetrahedron(at, 1e-3)]),
+        &[],
+    );
 }
 
 #[test]

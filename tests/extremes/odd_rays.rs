@@ -33,6 +33,7 @@ fn place(scene: &TestScene, random: &mut Random) -> DVec3 {
                 let p = if u < 0.5 { p.signum() } else { p };
                 cuboid.center + cuboid.rotation * (p * cuboid.half)
             }
+            Shape::Instance(instance) => instance.position,
         },
     }
 }

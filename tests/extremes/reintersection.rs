@@ -61,7 +61,7 @@ fn any_rectangle(random: &mut Random) -> Geometry {
 fn aim(geometry: &Geometry, random: &mut Random) -> DVec3 {
     match geometry.solids.first().map(|solid| solid.shape) {
         None => {
-            let [a, b, c] = geometry.corners(0).map(|p| geometry.mesh_frame.to_world(p));
+            let [a, b, c] = geometry.spaces[0].corners(0).map(|p| geometry.spaces[0].frame.to_world(p));
             let (mut u, mut v) = (random.unit(), random.unit());
             if u + v > 1.0 {
                 (u, v) = (1.0 - u, 1.0 - v);
@@ -73,13 +73,14 @@ fn aim(geometry: &Geometry, random: &mut Random) -> DVec3 {
         Some(Shape::Rectangle(rectangle)) => {
             rectangle.center + rectangle.offset_at(random.unit(), random.unit())
         }
+        Some(Shape::Instance(_)) => unreachable!("not made"),
     }
 }
 
 fn extent(geometry: &Geometry) -> f64 {
     match geometry.solids.first() {
-        None => 2.0 / geometry.mesh_frame.scale,
-        Some(solid) => (solid.bounds().max - solid.bounds().min).length(),
+        None => 2.0 / geometry.spaces[0].frame.scale,
+        Some(_) => (geometry.solid_bounds(0).max - geometry.solid_bounds(0).min).length(),
     }
 }
 
@@ -155,7 +156,7 @@ fn inward_start(shape: &Shape, random: &mut Random) -> (DVec3, DVec3) {
             }
             (cuboid.rotation * (p * cuboid.half), cuboid.face_normal(face as u32))
         }
-        Shape::Rectangle(_) => unreachable!("a rectangle has no inside"),
+        Shape::Rectangle(_) | Shape::Instance(_) => unreachable!("no inside"),
     }
 }
 
@@ -169,7 +170,7 @@ fn rays_into_a_body_meet_its_far_side() {
         let (center, size) = match shape {
             Shape::Ball(ball) => (ball.center, ball.radius),
             Shape::Cuboid(cuboid) => (cuboid.center, cuboid.half.min_element()),
-            Shape::Rectangle(_) => unreachable!("not made"),
+            Shape::Rectangle(_) | Shape::Instance(_) => unreachable!("not made"),
         };
         for accelerator in accelerators(&geometry, Precision::Exact) {
             for _ in 0..RAYS {
@@ -217,7 +218,7 @@ fn rays_that_leave_a_convex_mesh_beside_its_edges_meet_no_neighbour() {
                     2 => (near(&mut random) * 0.5, random.unit() * 0.5),
                     _ => (near(&mut random) * 0.5, near(&mut random) * 0.5),
                 };
-                let point = geometry.triangle_point(random.index(8) as u32, u, v);
+                let point = geometry.triangle_point(PrimitiveId::triangle(0, random.index(8) as u32), u, v);
                 let direction = random.direction();
                 let direction = if direction.dot(point.normal) < 0.0 { -direction } else { direction };
                 let next = point.leave(direction);

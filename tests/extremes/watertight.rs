@@ -59,8 +59,8 @@ fn rays_at_the_corner_of_a_fan_hit_it() {
         }
         let scene = TestScene::of_meshes("fan", vec![mesh], tip);
         // Where the corner is after its coordinates are rounded to f32.
-        let frame = &scene.geometry.mesh_frame;
-        let [x, y, z] = scene.geometry.vertices[0].map(f64::from);
+        let frame = &scene.geometry.spaces[0].frame;
+        let [x, y, z] = scene.geometry.spaces[0].vertices[0].map(f64::from);
         let corner = frame.to_world(DVec3::new(x, y, z));
         let rays: Vec<Ray> = (0..30_000)
             .map(|_| {

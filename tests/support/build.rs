@@ -52,6 +52,16 @@ pub(crate) fn mesh(positions: Vec<[f64; 3]>, triangles: Vec<[u32; 3]>) -> ShapeD
     }
 }
 
+/// A mesh at another place, larger and turned; the copies of a mesh share its triangles.
+pub(crate) fn placed(shape: ShapeDesc, at: DVec3, times: f64, turn: DVec3) -> ShapeDesc {
+    match shape {
+        ShapeDesc::TriangleMesh { file, mesh, axes, smooth, .. } => {
+            ShapeDesc::TriangleMesh { file, mesh, scale: times, position: at, rotation: turn, axes, smooth }
+        }
+        other => other,
+    }
+}
+
 /// A scene with a black sky and a narrow camera at `eye` that looks at `target`.
 pub(crate) fn scene(eye: DVec3, target: DVec3, objects: Vec<(ShapeDesc, MaterialKind)>) -> SceneDesc {
     let location = Location { file: "scene.yaml".into(), line: 1, column: 1 };

@@ -14,7 +14,7 @@ pub(crate) struct Answer {
 
 impl Answer {
     /// Asks an accelerator for what is in the way of a ray that hits `hit`; `t` is where the any-hit queries end.
-    fn of(accelerator: &impl Accelerator, ray: &Ray, hit: Option<Hit>, t: f64) -> Answer {
+    fn of(accelerator: &(impl Accelerator + ?Sized), ray: &Ray, hit: Option<Hit>, t: f64) -> Answer {
         let ends = [f64::INFINITY, t, t * (1.0 + 1e-12)];
         Answer { hit, occluded: ends.map(|end| accelerator.occluded(ray, end, PrimitiveId::NONE)) }
     }
@@ -36,7 +36,11 @@ pub(crate) struct Difference {
 }
 
 /// All rays on which two accelerators disagree in any bit.
-pub(crate) fn differences<A: Accelerator, B: Accelerator>(a: &A, b: &B, rays: &[Ray]) -> Vec<Difference> {
+pub(crate) fn differences<A, B>(a: &A, b: &B, rays: &[Ray]) -> Vec<Difference>
+where
+    A: Accelerator + ?Sized,
+    B: Accelerator + ?Sized,
+{
     rays.par_iter()
         .filter_map(|&ray| {
             let hits = [a.intersect(&ray), b.intersect(&ray)];
@@ -48,7 +52,11 @@ pub(crate) fn differences<A: Accelerator, B: Accelerator>(a: &A, b: &B, rays: &[
 }
 
 /// Fails with the first few differences.
-pub(crate) fn assert_identical<A: Accelerator, B: Accelerator>(what: &str, a: &A, b: &B, rays: &[Ray]) {
+pub(crate) fn assert_identical<A, B>(what: &str, a: &A, b: &B, rays: &[Ray])
+where
+    A: Accelerator + ?Sized,
+    B: Accelerator + ?Sized,
+{
     let found = differences(a, b, rays);
     let first = found.iter().take(3).map(|difference| {
         let Difference { ray, answers: [a, b] } = difference;

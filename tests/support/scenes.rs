@@ -1,6 +1,6 @@
 //! Scenes for the comparison of accelerators.
 
-use pathtracer::geometry::{Ball, Cuboid, Geometry, MeshPart, Rectangle, Shape, Solid};
+use pathtracer::geometry::{Ball, Cuboid, Geometry, Instance, MeshPart, MeshSpace, Rectangle, Shape, Solid};
 use pathtracer::math::{DMat3, DVec3};
 
 use super::meshes;
@@ -38,8 +38,8 @@ impl TestScene {
 }
 
 /// The kinds of scenes, by name.
-pub(crate) const KINDS: [&str; 7] =
-    ["sphere", "soup", "terrain", "duplicated faces", "T-junctions", "slivers", "mixed"];
+pub(crate) const KINDS: [&str; 8] =
+    ["sphere", "soup", "terrain", "duplicated faces", "T-junctions", "slivers", "mixed", "instances"];
 
 /// A scene of a kind around `center`, of some 1000 triangles.
 pub(crate) fn scene(kind: &'static str, center: DVec3) -> TestScene {
@@ -51,6 +51,7 @@ pub(crate) fn scene(kind: &'static str, center: DVec3) -> TestScene {
         "T-junctions" => meshes::t_junctions(40),
         "slivers" => meshes::slivers(1000, 6),
         "mixed" => return mixed(center),
+        "instances" => return instances(center),
         _ => unreachable!("not a kind: {kind}"),
     };
     TestScene::of_meshes(kind, vec![meshes::moved(mesh, center)], center)
@@ -74,10 +75,56 @@ fn mixed(center: DVec3) -> TestScene {
     TestScene::new("mixed", solids, vec![mesh(61, 8, 0.3), mesh(62, 9, -0.3)], center, 1.0)
 }
 
+/// A mesh of 100,000 triangles that stands on a ball of radius 1e7.
+pub(crate) fn on_a_large_ball() -> TestScene {
+    let ball = Ball { center: DVec3::new(0.0, 0.0, -1e7 - 1.1), radius: 1e7 };
+    let ground = Solid { object: 0, shape: Shape::Ball(ball) };
+    let mesh = MeshPart { object: 1, ..meshes::sphere(1.0, 316, 0.05, 1) };
+    TestScene::new("on a large ball", vec![ground], vec![mesh], DVec3::ZERO, 1.0)
+}
+
+/// Turned, scaled and mirrored instances of two meshes among balls, boxes and rectangles and a mesh that lies in the
+/// world. The last instance is the first once more.
+fn instances(center: DVec3) -> TestScene {
+    let mut random = Random::new(10);
+    let meshes = [meshes::sphere(1.0, 12, 0.2, 11), meshes::moved(meshes::soup(100, 0.5, 12), FAR)];
+    let mut parts = vec![MeshPart { object: 0, ..meshes::moved(meshes::terrain(8, 0.2, 13), center) }];
+    let mut solids = Vec::new();
+    for object in 1..=40 {
+        let place = center + random.in_cube();
+        if object % 4 == 0 {
+            solids.push(Solid { object, shape: solid(object / 4, place, &mut random) });
+            continue;
+        }
+        let mesh = object % 2;
+        let (x, y) = axes(&mut random);
+        let mirror = if random.unit() < 0.3 { -1.0 } else { 1.0 };
+        let rotation = DMat3::from_cols(x, y, x.cross(y) * mirror);
+        let scale = random.between(0.1, 0.3);
+        // The second mesh lies far from the origin of its own coordinates.
+        let offset = if mesh == 1 { rotation * FAR * scale } else { DVec3::ZERO };
+        let instance = Instance { space: mesh, rotation, scale, position: place - offset };
+        let seen = |&p: &DVec3| instance.to_world(p);
+        let MeshPart { positions, triangles, .. } = &meshes[mesh as usize];
+        let positions = positions.iter().map(seen).collect();
+        parts.push(MeshPart { object, positions, triangles: triangles.clone() });
+        solids.push(Solid { object, shape: Shape::Instance(instance) });
+    }
+    solids.push(Solid { object: 41, ..solids[0] });
+    let spaces = meshes.iter().map(|mesh| MeshSpace::new(&[mesh])).collect();
+    let geometry = Geometry::with_instances(solids, &parts[..1], spaces);
+    TestScene { name: "instances", geometry, center, size: 1.0, parts }
+}
+
+/// Two unit vectors at a right angle.
+fn axes(random: &mut Random) -> (DVec3, DVec3) {
+    let x = random.direction();
+    (x, x.cross(random.direction()).normalize())
+}
+
 fn solid(kind: u32, place: DVec3, random: &mut Random) -> Shape {
     let size = random.between(0.02, 0.2);
-    let x = random.direction();
-    let y = x.cross(random.direction()).normalize();
+    let (x, y) = axes(random);
     match kind % 3 {
         0 => Shape::Ball(Ball { center: place, radius: size }),
         1 => Shape::Cuboid(Cuboid {

@@ -1,9 +1,10 @@
 //! What the leaves hold: blocks of triangles at two precisions, and solids.
 
+use super::Bvh;
 use super::traverse::Leaf;
-use crate::accel::{distance, nearer};
+use crate::accel::{any_in_solid, closest_in_solid};
 use crate::geometry::{
-    Geometry, Hit, LocalRay, PrimitiveId, Ray, TriangleBlock, TriangleHit, any_in_block, closest_in_block,
+    Hit, LocalRay, PrimitiveId, Ray, TriangleBlock, TriangleHit, any_in_block, closest_in_block,
 };
 use crate::math::round_up;
 
@@ -49,7 +50,8 @@ impl Leaf for ExactTriangles<'_> {
 
 /// One solid a leaf.
 pub(super) struct Solids<'t> {
-    pub(super) geometry: &'t Geometry,
+    /// The whole, which knows what is in instances.
+    pub(super) kernel: &'t Bvh<'t>,
     /// Ids, by the index of the leaf.
     pub(super) order: &'t [u32],
     pub(super) ray: &'t Ray,
@@ -65,7 +67,7 @@ impl Leaf for Solids<'_> {
     fn limit(&self) -> f32 {
         // From the world's distance to the nodes' with all roundings of that way. The ray's own end comes first where
         // that is shorter.
-        let frame = &self.geometry.solid_frame;
+        let frame = &self.kernel.geometry.solid_frame;
         let end = self.best.map_or(self.local.t_max, |best| {
             ((frame.widen(best.t) - self.local.shift) * frame.scale).min(self.local.t_max)
         });
@@ -74,9 +76,7 @@ impl Leaf for Solids<'_> {
 
     #[inline(always)]
     fn closest(&mut self, leaf: u32) {
-        let solid = self.order[leaf as usize];
-        let hit = self.geometry.intersect_solid(solid, self.ray, distance(&self.best));
-        self.best = nearer(self.best, hit);
+        self.best = closest_in_solid(self.kernel, self.order[leaf as usize], self.ray, self.best);
     }
 
     #[inline(always)]
@@ -86,6 +86,6 @@ impl Leaf for Solids<'_> {
 
     #[inline(always)]
     fn any(&self, leaf: u32) -> bool {
-        self.geometry.solid_occludes(self.order[leaf as usize], self.ray, self.t_max, self.target)
+        any_in_solid(self.kernel, self.order[leaf as usize], self.ray, self.t_max, self.target)
     }
 }

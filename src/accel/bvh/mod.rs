@@ -1,6 +1,6 @@
 //! The native accelerator: a tree of boxes, eight children a node, in pure Rust.
 //!
-//! One tree holds the triangles, in blocks of up to eight a leaf; one holds the solids, one a leaf. Both share the
+//! A tree for every space of triangles, in blocks of up to eight a leaf, and one for the solids, one a leaf. All share the
 //! builder (`build`), the node (`node`) and the traversal (`traverse`); only the leaves differ (`leaf`,
 //! `fast`). The boxes and the node test are conservative, the shared leaf decides: so hits are those of
 //! [`super::brute_force::BruteForce`], bit by bit, in every instruction set.
@@ -24,18 +24,37 @@ use self::simd::Instructions;
 use self::split::PrimRef;
 use super::{BuildOptions, Isa, Kernel, Precision};
 use crate::error::Result;
-use crate::geometry::{Geometry, Hit, LocalRay, PrimitiveId, Ray, TriangleBlock, TriangleHit};
+use crate::geometry::{Geometry, Hit, LocalRay, MeshSpace, PrimitiveId, Ray, TriangleBlock, TriangleHit};
 use crate::math::{round_down, round_up};
 
 /// Trees over the triangles and the solids of a [`Geometry`].
 pub struct Bvh<'g> {
     geometry: &'g Geometry,
-    triangle_nodes: Vec<Node>,
-    blocks: Vec<TriangleBlock>,
+    /// Of every space.
+    triangles: Vec<TriangleTree>,
     solid_nodes: Vec<Node>,
     solid_order: Vec<u32>,
     precision: Precision,
     instructions: Instructions,
+}
+
+/// The tree over the triangles of a space.
+#[derive(PartialEq)]
+struct TriangleTree {
+    nodes: Vec<Node>,
+    blocks: Vec<TriangleBlock>,
+}
+
+impl TriangleTree {
+    fn over(space: &MeshSpace) -> TriangleTree {
+        let tree = triangle_tree(space);
+        let blocks = pack(space, &tree);
+        TriangleTree { nodes: tree.nodes, blocks }
+    }
+
+    fn bytes(&self) -> usize {
+        size_of_val(&self.nodes[..]) + size_of_val(&self.blocks[..])
+    }
 }
 
 impl<'g> Bvh<'g> {
@@ -43,15 +62,13 @@ impl<'g> Bvh<'g> {
     /// [`crate::error::Error::Usage`] if the machine lacks the instruction set asked for.
     pub fn build(geometry: &'g Geometry, options: &BuildOptions) -> Result<Bvh<'g>> {
         let instructions = Instructions::choose(options.isa)?;
-        let triangles = triangle_tree(geometry);
-        let blocks = pack(geometry, &triangles);
+        let triangles = geometry.spaces.iter().map(TriangleTree::over).collect();
         let solids = solid_tree(geometry);
         // One solid a leaf: the leaf's index is the place in the order.
         let solid_order = solids.order;
         Ok(Bvh {
             geometry,
-            triangle_nodes: triangles.nodes,
-            blocks,
+            triangles,
             solid_nodes: solids.nodes,
             solid_order,
             precision: options.precision,
@@ -66,8 +83,7 @@ impl<'g> Bvh<'g> {
 
     /// Bytes of nodes and leaves, without the geometry's own arrays.
     pub fn bytes(&self) -> usize {
-        size_of_val(&self.triangle_nodes[..])
-            + size_of_val(&self.blocks[..])
+        self.triangles.iter().map(TriangleTree::bytes).sum::<usize>()
             + size_of_val(&self.solid_nodes[..])
             + size_of_val(&self.solid_order[..])
     }
@@ -76,38 +92,37 @@ impl<'g> Bvh<'g> {
 impl PartialEq for Bvh<'_> {
     /// The same nodes and leaves in the same places.
     fn eq(&self, other: &Self) -> bool {
-        self.triangle_nodes == other.triangle_nodes
-            && self.blocks == other.blocks
+        self.triangles == other.triangles
             && self.solid_nodes == other.solid_nodes
             && self.solid_order == other.solid_order
     }
 }
 
-/// The triangles in blocks of up to eight, grouped by the surface area heuristic.
-pub fn triangle_blocks(geometry: &Geometry) -> Vec<TriangleBlock> {
-    pack(geometry, &triangle_tree(geometry))
+/// The triangles of a space in blocks of up to eight, grouped by the surface area heuristic.
+pub fn triangle_blocks(space: &MeshSpace) -> Vec<TriangleBlock> {
+    pack(space, &triangle_tree(space))
 }
 
-fn pack(geometry: &Geometry, tree: &Tree) -> Vec<TriangleBlock> {
+fn pack(space: &MeshSpace, tree: &Tree) -> Vec<TriangleBlock> {
     let block = |leaf: &std::ops::Range<u32>| {
         let indices = &tree.order[leaf.start as usize..leaf.end as usize];
-        TriangleBlock::new(indices.iter().map(|&index| (index, geometry.corners32(index))))
+        TriangleBlock::new(indices.iter().map(|&index| (index, space.corners32(index))))
     };
     tree.leaves.par_iter().map(block).collect()
 }
 
-fn triangle_tree(geometry: &Geometry) -> Tree {
-    let triangles = 0..geometry.triangles.len() as u32;
+fn triangle_tree(space: &MeshSpace) -> Tree {
+    let triangles = 0..space.triangles.len() as u32;
     let prims = triangles.into_par_iter().map(|index| {
-        let (low, high) = triangle_bounds(geometry, index);
-        let padding = triangle_padding(geometry, low, high);
+        let (low, high) = triangle_bounds(space, index);
+        let padding = triangle_padding(space, low, high);
         PrimRef::new(index, low.map(|x| round_down(x - padding)), high.map(|x| round_up(x + padding)))
     });
     build::build(prims.collect(), TriangleBlock::LANES)
 }
 
-fn triangle_bounds(geometry: &Geometry, index: u32) -> ([f64; 3], [f64; 3]) {
-    let [a, b, c] = geometry.corners(index);
+fn triangle_bounds(space: &MeshSpace, index: u32) -> ([f64; 3], [f64; 3]) {
+    let [a, b, c] = space.corners(index);
     (a.min(b).min(c).to_array(), a.max(b).max(c).to_array())
 }
 
@@ -118,9 +133,9 @@ fn triangle_bounds(geometry: &Geometry, index: u32) -> ([f64; 3], [f64; 3]) {
 /// roundings. Corners are projected along the ray with errors of a few 2^-53 |corner - origin|, so the leaf takes rays that
 /// pass an edge at some 2^-51 of the distance. The first term is more than that for origins up to 2^28 times as far as the
 /// triangle, the second for the rest. Being relative to the triangle, it costs a fine mesh nothing beside a huge one.
-fn triangle_padding(geometry: &Geometry, low: [f64; 3], high: [f64; 3]) -> f64 {
+fn triangle_padding(space: &MeshSpace, low: [f64; 3], high: [f64; 3]) -> f64 {
     let largest = low.into_iter().chain(high).fold(0.0, |most: f64, x| most.max(x.abs()));
-    largest / 4_194_304.0 + geometry.mesh_frame.padding() / 536_870_912.0
+    largest / 4_194_304.0 + space.frame.padding() / 536_870_912.0
 }
 
 fn solid_tree(geometry: &Geometry) -> Tree {
@@ -140,7 +155,7 @@ impl Bvh<'_> {
         t_max: f64,
         target: PrimitiveId,
     ) -> Solids<'t> {
-        Solids { geometry: self.geometry, order: &self.solid_order, ray, local, best, t_max, target }
+        Solids { kernel: self, order: &self.solid_order, ray, local, best, t_max, target }
     }
 }
 
@@ -149,9 +164,9 @@ impl Kernel for Bvh<'_> {
         self.geometry
     }
 
-    fn closest_triangle(&self, ray: &LocalRay) -> Option<TriangleHit> {
+    fn closest_triangle(&self, space: u32, ray: &LocalRay) -> Option<TriangleHit> {
         let node_ray = NodeRay::new(ray);
-        let (nodes, blocks) = (&self.triangle_nodes[..], &self.blocks[..]);
+        let TriangleTree { nodes, blocks } = &self.triangles[space as usize];
         if self.precision != Precision::Fast {
             let mut leaf = ExactTriangles::new(blocks, ray);
             self.instructions.closest(nodes, &node_ray, &mut leaf);
@@ -162,9 +177,9 @@ impl Kernel for Bvh<'_> {
         leaf.hit()
     }
 
-    fn any_triangle(&self, ray: &LocalRay) -> bool {
+    fn any_triangle(&self, space: u32, ray: &LocalRay) -> bool {
         let node_ray = NodeRay::new(ray);
-        let (nodes, blocks) = (&self.triangle_nodes[..], &self.blocks[..]);
+        let TriangleTree { nodes, blocks } = &self.triangles[space as usize];
         if self.precision != Precision::Fast {
             let leaf = ExactTriangles::new(blocks, ray);
             return self.instructions.any(nodes, &node_ray, &leaf);

@@ -2,19 +2,20 @@
 
 use super::node::{Child, MAX_DEPTH, Node, WIDTH};
 use super::{Bvh, triangle_bounds};
-use crate::geometry::Geometry;
+use crate::geometry::MeshSpace;
 
 impl Bvh<'_> {
     /// Checks that every triangle and every solid of the trees is in exactly one leaf, that every box holds everything
     /// below it, that no node is shared or out of reach, and that no path is longer than the stack allows.
     /// The first thing that is wrong, in words.
     pub fn validate(&self) -> Result<(), String> {
-        let triangle_leaf = |leaf: u32| {
-            let block = self.blocks.get(leaf as usize).ok_or("a leaf that is not there")?;
-            Ok(block.indices().map(|index| (index, exact_bounds(self.geometry, index))).collect())
-        };
-        let all = (0..self.geometry.triangles.len() as u32).collect();
-        check(&self.triangle_nodes, self.blocks.len(), all, triangle_leaf)?;
+        for (space, tree) in self.geometry.spaces.iter().zip(&self.triangles) {
+            let leaf = |leaf: u32| {
+                let block = tree.blocks.get(leaf as usize).ok_or("a leaf that is not there")?;
+                Ok(block.indices().map(|index| (index, exact_bounds(space, index))).collect())
+            };
+            check(&tree.nodes, tree.blocks.len(), (0..space.triangles.len() as u32).collect(), leaf)?;
+        }
         let solid_leaf = |leaf: u32| {
             let &solid = self.solid_order.get(leaf as usize).ok_or("a leaf that is not there")?;
             Ok(vec![(solid, self.geometry.solid_node_bounds(solid))])
@@ -26,8 +27,8 @@ impl Bvh<'_> {
 /// Lower and upper corner.
 type Corners = ([f32; 3], [f32; 3]);
 
-fn exact_bounds(geometry: &Geometry, index: u32) -> Corners {
-    let (low, high) = triangle_bounds(geometry, index);
+fn exact_bounds(space: &MeshSpace, index: u32) -> Corners {
+    let (low, high) = triangle_bounds(space, index);
     (low.map(|x| x as f32), high.map(|x| x as f32))
 }
 

@@ -3,7 +3,7 @@
 use super::scene::{BoundingBox, Device, Queries, Scene, UserGeometry, reach};
 use crate::accel::bvh::triangle_blocks;
 use crate::error::Result;
-use crate::geometry::{Geometry, LocalRay, TriangleBlock, TriangleHit, any_in_block, closest_in_block};
+use crate::geometry::{LocalRay, MeshSpace, TriangleBlock, TriangleHit, any_in_block, closest_in_block};
 use crate::math::{round_down, round_up};
 
 /// A scene of user primitives, each a block of up to eight triangles.
@@ -13,8 +13,8 @@ pub(super) struct Blocks {
 }
 
 impl Blocks {
-    pub(super) fn build(device: &Device, geometry: &Geometry) -> Result<Blocks> {
-        let boxes = BlockBoxes { blocks: triangle_blocks(geometry), padding: geometry.mesh_frame.padding() };
+    pub(super) fn build(device: &Device, space: &MeshSpace) -> Result<Blocks> {
+        let boxes = BlockBoxes { blocks: triangle_blocks(space), padding: space.frame.padding() };
         let scene = Scene::of_boxes(device, &boxes, boxes.blocks.len())?;
         Ok(Blocks { scene, blocks: boxes.blocks })
     }

@@ -6,7 +6,9 @@
 //! | robust | triangle geometry, `RTC_SCENE_FLAG_ROBUST` (`native`) | Embree chooses the triangle, t, u, v are computed in f64 |
 //! | fast | triangle geometry, high build quality (spatial splits) | the same |
 //!
-//! Solids are user geometry of a scene of their own, in their own local space (`solids`), and always exact.
+//! Solids are user geometry of a scene of their own, in their own local space (`solids`), and always exact. Instances are
+//! among them, at every precision: their callback brings the ray into the space of the mesh by the shared routine and
+//! traces that space's scene. Embree's own instances would transform the ray in f32.
 //!
 //! At exact Embree only has to enter every box whose content may be hit. It does: its node test for user geometry errs
 //! by a few roundings of the largest coordinate, the boxes are widened by more ([`LocalFrame::padding`]), and after a
@@ -21,7 +23,7 @@ mod solids;
 
 use super::{BuildOptions, Kernel, Precision};
 use crate::error::Result;
-use crate::geometry::{Geometry, Hit, LocalRay, PrimitiveId, Ray, TriangleHit};
+use crate::geometry::{Geometry, Hit, LocalRay, MeshSpace, PrimitiveId, Ray, TriangleHit};
 use blocks::Blocks;
 use native::NativeTriangles;
 use scene::Device;
@@ -30,13 +32,13 @@ use solids::Solids;
 /// The accelerator that asks Embree.
 pub struct Embree<'g> {
     geometry: &'g Geometry,
-    triangles: Triangles<'g>,
+    /// Of every space.
+    triangles: Vec<Triangles<'g>>,
     solids: Option<Solids<'g>>,
 }
 
-/// The scene over the triangles.
+/// The scene over the triangles of a space.
 enum Triangles<'g> {
-    None,
     Exact(Blocks),
     Native(NativeTriangles<'g>),
 }
@@ -51,12 +53,14 @@ impl<'g> Embree<'g> {
     /// too little memory.
     pub fn build(geometry: &'g Geometry, options: &BuildOptions) -> Result<Embree<'g>> {
         let device = Device::new(options.isa)?;
-        let triangles = match options.precision {
-            _ if geometry.triangles.is_empty() => Triangles::None,
-            Precision::Exact => Triangles::Exact(Blocks::build(&device, geometry)?),
-            Precision::Robust => Triangles::Native(NativeTriangles::build(&device, geometry, true)?),
-            Precision::Fast => Triangles::Native(NativeTriangles::build(&device, geometry, false)?),
+        let build = |space: &'g MeshSpace| {
+            Ok(match options.precision {
+                Precision::Exact => Triangles::Exact(Blocks::build(&device, space)?),
+                Precision::Robust => Triangles::Native(NativeTriangles::build(&device, space, true)?),
+                Precision::Fast => Triangles::Native(NativeTriangles::build(&device, space, false)?),
+            })
         };
+        let triangles = geometry.spaces.iter().map(build).collect::<Result<Vec<_>>>()?;
         let some_solids = !geometry.tree_solids.is_empty();
         let solids = some_solids.then(|| Solids::build(&device, geometry)).transpose()?;
         Ok(Embree { geometry, triangles, solids })
@@ -68,17 +72,15 @@ impl Kernel for Embree<'_> {
         self.geometry
     }
 
-    fn closest_triangle(&self, ray: &LocalRay) -> Option<TriangleHit> {
-        match &self.triangles {
-            Triangles::None => None,
+    fn closest_triangle(&self, space: u32, ray: &LocalRay) -> Option<TriangleHit> {
+        match &self.triangles[space as usize] {
             Triangles::Exact(blocks) => blocks.closest(ray),
             Triangles::Native(triangles) => triangles.closest(ray),
         }
     }
 
-    fn any_triangle(&self, ray: &LocalRay) -> bool {
-        match &self.triangles {
-            Triangles::None => false,
+    fn any_triangle(&self, space: u32, ray: &LocalRay) -> bool {
+        match &self.triangles[space as usize] {
             Triangles::Exact(blocks) => blocks.any(ray),
             Triangles::Native(triangles) => triangles.any(ray),
         }
@@ -86,12 +88,12 @@ impl Kernel for Embree<'_> {
 
     fn closest_solid(&self, ray: &Ray, local: &LocalRay, best: Option<Hit>) -> Option<Hit> {
         match &self.solids {
-            Some(solids) => solids.closest(ray, local, best),
+            Some(solids) => solids.closest(self, ray, local, best),
             None => best,
         }
     }
 
     fn any_solid(&self, ray: &Ray, local: &LocalRay, t_max: f64, target: PrimitiveId) -> bool {
-        self.solids.as_ref().is_some_and(|solids| solids.any(ray, local, t_max, target))
+        self.solids.as_ref().is_some_and(|solids| solids.any(self, ray, local, t_max, target))
     }
 }

@@ -2,25 +2,21 @@
 
 use super::scene::{Device, Filter, Queries, Scene};
 use crate::error::Result;
-use crate::geometry::{Geometry, LocalRay, TriangleHit, plane_hit};
+use crate::geometry::{LocalRay, MeshSpace, TriangleHit, plane_hit};
 
-/// A scene of triangles, in the buffers of the geometry.
+/// A scene of triangles, in the buffers of a space.
 pub(super) struct NativeTriangles<'g> {
     scene: Scene<'g, TriangleFilter>,
-    geometry: &'g Geometry,
+    space: &'g MeshSpace,
 }
 
 impl<'g> NativeTriangles<'g> {
-    pub(super) fn build(
-        device: &Device,
-        geometry: &'g Geometry,
-        robust: bool,
-    ) -> Result<NativeTriangles<'g>> {
-        Ok(NativeTriangles { scene: Scene::of_triangles(device, geometry, robust)?, geometry })
+    pub(super) fn build(device: &Device, space: &'g MeshSpace, robust: bool) -> Result<NativeTriangles<'g>> {
+        Ok(NativeTriangles { scene: Scene::of_triangles(device, space, robust)?, space })
     }
 
     pub(super) fn closest(&self, ray: &LocalRay) -> Option<TriangleHit> {
-        let mut query = Query { geometry: self.geometry, ray, measure: false };
+        let mut query = Query { space: self.space, ray, measure: false };
         let triangle = self.scene.intersect(ray, &mut query)?;
         query.hit(triangle).or_else(|| {
             // Embree and f64 disagree about the range: ask again, and measure every candidate.
@@ -31,13 +27,13 @@ impl<'g> NativeTriangles<'g> {
     }
 
     pub(super) fn any(&self, ray: &LocalRay) -> bool {
-        self.scene.occluded(ray, &mut Query { geometry: self.geometry, ray, measure: true })
+        self.scene.occluded(ray, &mut Query { space: self.space, ray, measure: true })
     }
 }
 
 /// What decides about a candidate.
 struct Query<'q> {
-    geometry: &'q Geometry,
+    space: &'q MeshSpace,
     ray: &'q LocalRay,
     /// Whether a candidate must lie in range by its f64 distance too. That costs a look at its corners.
     measure: bool,
@@ -46,7 +42,7 @@ struct Query<'q> {
 impl Query<'_> {
     /// The candidate's hit, if it is in (0, t_max].
     fn hit(&self, triangle: u32) -> Option<TriangleHit> {
-        let corners = self.geometry.corners(triangle);
+        let corners = self.space.corners(triangle);
         let (t, u, v) = plane_hit(self.ray, corners)?;
         (t > 0.0 && t <= self.ray.t_max).then_some(TriangleHit { t, index: triangle, u, v })
     }

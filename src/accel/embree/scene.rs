@@ -7,7 +7,7 @@
 
 use crate::accel::Isa;
 use crate::error::{Error, Result};
-use crate::geometry::{Geometry, LocalRay};
+use crate::geometry::{LocalRay, MeshSpace};
 use crate::math::round_up;
 use embree_sys::*;
 use std::ffi::{CStr, CString, c_char, c_void};
@@ -170,8 +170,8 @@ impl Drop for GeometryHandle {
 /// A committed scene whose callbacks work with `Q`, over buffers of `'g`.
 pub(super) struct Scene<'g, Q> {
     raw: RTCScene,
-    buffers: PhantomData<&'g Geometry>,
-    queries: PhantomData<fn(Q)>,
+    buffers: PhantomData<&'g MeshSpace>,
+    queries: PhantomData<fn() -> Q>,
 }
 
 // SAFETY: only queries and the release are left to do. The manual (introduction): "In general, API calls that access the
@@ -208,10 +208,10 @@ impl<G: UserGeometry> Scene<'_, G> {
 }
 
 impl<'g, F: Filter> Scene<'g, F> {
-    /// The scene of the triangles of `geometry`, whose buffers Embree reads but never writes.
-    pub(super) fn of_triangles(device: &Device, geometry: &'g Geometry, robust: bool) -> Result<Self> {
+    /// The scene of the triangles of `space`, whose buffers Embree reads but never writes.
+    pub(super) fn of_triangles(device: &Device, space: &'g MeshSpace, robust: bool) -> Result<Self> {
         let mesh = device.new_geometry(RTC_GEOMETRY_TYPE_TRIANGLE)?;
-        let (vertices, triangles) = (&geometry.vertices, &geometry.triangles);
+        let (vertices, triangles) = (&space.vertices, &space.triangles);
         // The last vertex is padding: Embree loads 16 bytes from each.
         let (vertex_count, triangle_count) = (vertices.len().saturating_sub(1), triangles.len());
         let (vertices, triangles) = (vertices.as_ptr().cast(), triangles.as_ptr().cast());

@@ -19,11 +19,14 @@ pub(super) fn check(world: &World, desc: &SceneDesc, width: u32) -> Vec<Diagnost
     let reach = world.camera(&desc.camera, width, 1).lens_radius;
     for (solid, index) in world.geometry.solids.iter().zip(0..) {
         let Some(object) = desc.objects.get(solid.object as usize) else { continue };
-        let error = world.geometry.solid_point(index, solid.bounds().center(), DVec3::ZERO, DVec3::X).error;
+        let error = world
+            .geometry
+            .solid_point(index, world.geometry.solid_bounds(index).center(), DVec3::ZERO, DVec3::X)
+            .error;
         let Some(height) = height_above(solid, position) else { continue };
         if height.abs() <= reach.max(error.max_element()) {
             found.push(on_the_surface(object, height, reach));
-        } else if height < 0.0 && is_dark_inside(world, solid) {
+        } else if height < 0.0 && is_dark_inside(world, index) {
             found.push(in_the_dark(object));
         }
     }
@@ -103,7 +106,7 @@ fn height_above(solid: &Solid, p: DVec3) -> Option<f64> {
             let outside = beyond.max(DVec3::ZERO).length();
             Some(if outside > 0.0 { outside } else { beyond.max_element() })
         }
-        Shape::Rectangle(_) => None,
+        Shape::Rectangle(_) | Shape::Instance(_) => None,
     }
 }
 
@@ -124,17 +127,17 @@ fn on_the_surface(object: &ObjectDesc, height: f64, reach: f64) -> Diagnostic {
 }
 
 /// Whether a body lets no light through, and neither shines nor may have a light in it.
-fn is_dark_inside(world: &World, solid: &Solid) -> bool {
-    let is_light = |object: u32| world.emission(object) != Rgb::ZERO;
-    let overlaps = |b: Bounds| {
-        let a = solid.bounds();
-        a.min.cmple(b.max).all() && b.min.cmple(a.max).all()
-    };
+fn is_dark_inside(world: &World, solid: u32) -> bool {
     let geometry = &world.geometry;
-    let mut solids = geometry.solids.iter();
-    let has_light = solids.any(|other| is_light(other.object) && overlaps(other.bounds()))
-        || geometry.meshes.iter().any(|&(object, _)| is_light(object));
-    !matches!(world.material(solid.object), Material::Refractive(_)) && !has_light
+    let is_light = |object: u32| world.emission(object) != Rgb::ZERO;
+    let a = geometry.solid_bounds(solid);
+    let overlaps = |b: Bounds| a.min.cmple(b.max).all() && b.min.cmple(a.max).all();
+    let mut solids = geometry.solids.iter().zip(0..);
+    let has_light = solids
+        .any(|(other, index)| is_light(other.object) && overlaps(geometry.solid_bounds(index)))
+        || geometry.world_spaces().any(|(_, space)| space.meshes.iter().any(|&(object, _)| is_light(object)));
+    let object = geometry.solids[solid as usize].object;
+    !matches!(world.material(object), Material::Refractive(_)) && !has_light
 }
 
 fn in_the_dark(object: &ObjectDesc) -> Diagnostic {

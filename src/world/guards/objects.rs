@@ -2,7 +2,7 @@
 
 use super::{SIGNIFICANT, diagnostic, severity};
 use crate::error::{Diagnostic, Severity};
-use crate::geometry::{Geometry, Shape};
+use crate::geometry::{Shape, Solid};
 use crate::math::{Bounds, DVec3};
 use crate::scene::desc::{ObjectDesc, SceneDesc, ShapeDesc};
 use crate::world::World;
@@ -37,35 +37,34 @@ pub(super) fn check(world: &World, desc: &SceneDesc) -> Vec<Diagnostic> {
 fn solids<'d>(world: &World, desc: &'d SceneDesc) -> impl Iterator<Item = Placed<'d>> {
     let geometry = &world.geometry;
     geometry.solids.iter().zip(0..).filter_map(move |(solid, index)| {
+        let bounds = geometry.solid_bounds(index);
         let (center, size) = match solid.shape {
             Shape::Ball(ball) => (ball.center, ball.radius),
             Shape::Cuboid(cuboid) => (cuboid.center, 2.0 * cuboid.half.min_element()),
             Shape::Rectangle(r) => (r.center, r.edge_u.length().min(r.edge_v.length())),
+            Shape::Instance(_) => (bounds.center(), (bounds.max - bounds.min).max_element()),
         };
         let error = geometry.solid_point(index, center, DVec3::ZERO, DVec3::X).error.max_element();
+        let error = error.max(world.mesh_rounding[solid.object as usize]);
         let desc = desc.objects.get(solid.object as usize)?;
-        Some(Placed { index: solid.object, desc, size, error, bounds: solid.bounds() })
+        Some(Placed { index: solid.object, desc, size, error, bounds })
     })
 }
 
+/// The meshes that lie in the world.
 fn meshes<'d>(world: &World, desc: &'d SceneDesc) -> impl Iterator<Item = Placed<'d>> {
-    let moved = world.mesh_rounding.iter();
-    moved.zip(mesh_ranges(&world.geometry)).filter_map(move |(&error, (object, triangles))| {
-        let corners = triangles.flat_map(|triangle| world.geometry.corners(triangle));
-        let local = corners.fold(Bounds::EMPTY, Bounds::with_point);
-        let frame = &world.geometry.mesh_frame;
-        let bounds = Bounds { min: frame.to_world(local.min), max: frame.to_world(local.max) };
-        let size = (local.max - local.min).max_element() / frame.scale;
-        let desc = desc.objects.get(object as usize)?;
-        (!local.is_empty()).then_some(Placed { index: object, desc, size, error, bounds })
+    world.geometry.world_spaces().flat_map(|(_, space)| {
+        space.mesh_ranges().filter_map(|(object, triangles)| {
+            let corners = triangles.flat_map(|triangle| space.corners(triangle));
+            let local = corners.fold(Bounds::EMPTY, Bounds::with_point);
+            let bounds =
+                Bounds { min: space.frame.to_world(local.min), max: space.frame.to_world(local.max) };
+            let size = (local.max - local.min).max_element() / space.frame.scale;
+            let error = world.mesh_rounding[object as usize];
+            let desc = desc.objects.get(object as usize)?;
+            (!local.is_empty()).then_some(Placed { index: object, desc, size, error, bounds })
+        })
     })
-}
-
-/// Object and triangles of every mesh.
-fn mesh_ranges(geometry: &Geometry) -> impl Iterator<Item = (u32, std::ops::Range<u32>)> {
-    let ends = geometry.meshes.iter().skip(1).map(|&(_, first)| first);
-    let ends = ends.chain(std::iter::once(geometry.triangles.len() as u32));
-    geometry.meshes.iter().zip(ends).map(|(&(object, first), end)| (object, first..end))
 }
 
 /// The object is too small for where it is in the scene.
@@ -104,25 +103,38 @@ fn against_last_digit(object: &Placed<'_>) -> Option<Diagnostic> {
         .then(|| diagnostic(Severity::Warning, Some(&object.desc.location), message(), help))
 }
 
-/// Triangles that have lost their area to rounding.
+/// Triangles that have lost their area to rounding; of a mesh that has instances it is said of the first.
 fn collapsed_triangles(world: &World, desc: &SceneDesc) -> Vec<(u32, Diagnostic)> {
-    let mut found = Vec::new();
-    for ((object, triangles), &error) in mesh_ranges(&world.geometry).zip(&world.mesh_rounding) {
-        let count = triangles.len();
-        let has_no_area = |&triangle: &u32| {
-            let [a, b, c] = world.geometry.corners(triangle);
-            (b - a).cross(c - a) == DVec3::ZERO
-        };
-        let collapsed = triangles.filter(has_no_area).count();
-        let Some(desc) = desc.objects.get(object as usize).filter(|_| collapsed > 0) else { continue };
-        let severity = if collapsed == count { Severity::Error } else { Severity::Warning };
-        let message = format!(
-            "{collapsed} of the {count} triangles of this mesh are not drawn: nothing is left of their area when \
-             corners are rounded, by up to {error:.1e}"
-        );
-        found.push((object, diagnostic(severity, Some(&desc.location), message, MOVE)));
-    }
-    found
+    let geometry = &world.geometry;
+    let first_instance = |space: usize| {
+        let shows = |solid: &&Solid| matches!(solid.shape, Shape::Instance(i) if i.space as usize == space);
+        geometry.solids.iter().find(shows).map(|solid| solid.object)
+    };
+    let shared = geometry.instanced_spaces().iter().enumerate();
+    let shared = shared
+        .filter_map(|(index, space)| Some((first_instance(index)?, space, 0..space.triangles.len() as u32)));
+    let in_world = geometry.world_spaces().flat_map(|(_, space)| {
+        space.mesh_ranges().map(move |(object, triangles)| (object, space, triangles))
+    });
+    shared
+        .chain(in_world)
+        .filter_map(|(object, space, triangles)| {
+            let count = triangles.len();
+            let has_no_area = |&triangle: &u32| {
+                let [a, b, c] = space.corners(triangle);
+                (b - a).cross(c - a) == DVec3::ZERO
+            };
+            let collapsed = triangles.filter(has_no_area).count();
+            let desc = desc.objects.get(object as usize).filter(|_| collapsed > 0)?;
+            let severity = if collapsed == count { Severity::Error } else { Severity::Warning };
+            let error = world.mesh_rounding[object as usize];
+            let message = format!(
+                "{collapsed} of the {count} triangles of this mesh are not drawn: nothing is left of their area when \
+                 corners are rounded, by up to {error:.1e}"
+            );
+            Some((object, diagnostic(severity, Some(&desc.location), message, MOVE)))
+        })
+        .collect()
 }
 
 /// Small objects that touch the one whose points are known least.

@@ -2,9 +2,10 @@
 
 use super::alias::{AliasTable, BELOW_ONE};
 use super::spherical_rectangle::SphericalRectangle;
-use crate::geometry::{Ball, Cuboid, Geometry, PrimitiveId, Rectangle, Shape, SurfacePoint};
+use crate::geometry::{Ball, Cuboid, Geometry, MeshSpace, PrimitiveId, Rectangle, Shape, SurfacePoint};
 use crate::math::{DVec3, Frame, Rgb, luminance};
 use crate::sampling::warp::{cone_pdf, square_to_cone, square_to_triangle};
+use std::ops::Range;
 
 /// Where light arrives: a point with the side of its surface that is lit.
 #[derive(Clone, Copy, Debug)]
@@ -42,8 +43,9 @@ enum LightShape {
         solid: u32,
         rectangle: Rectangle,
     },
-    /// Triangles from `first` on, chosen by area.
+    /// Triangles of a space from `first` on, chosen by area.
     Mesh {
+        space: u32,
         first: u32,
         area: f64,
         table: AliasTable,
@@ -54,8 +56,8 @@ enum LightShape {
 pub(super) type PointSample = (SurfacePoint, f64);
 
 impl AreaLight {
-    /// The light of a solid.
-    pub(super) fn of_solid(geometry: &Geometry, solid: u32, radiance: Rgb) -> AreaLight {
+    /// The light of a solid; none of an instance: meshes that emit lie in the world.
+    pub(super) fn of_solid(geometry: &Geometry, solid: u32, radiance: Rgb) -> Option<AreaLight> {
         let (shape, area) = match geometry.solids[solid as usize].shape {
             Shape::Ball(ball) => {
                 let area = 4.0 * std::f64::consts::PI * ball.radius * ball.radius;
@@ -67,31 +69,33 @@ impl AreaLight {
                 (LightShape::Cuboid { solid, cuboid, faces }, area)
             }
             Shape::Rectangle(rectangle) => (LightShape::Rectangle { solid, rectangle }, rectangle.area()),
+            Shape::Instance(_) => return None,
         };
-        let bounds = geometry.solids[solid as usize].bounds();
+        let bounds = geometry.solid_bounds(solid);
         let bounding_radius = ((bounds.max - bounds.min) * 0.5).length();
-        AreaLight {
+        Some(AreaLight {
             radiance,
             shape,
             power: luminance(radiance) * area,
             center: bounds.center(),
             bounding_radius,
-        }
+        })
     }
 
-    /// The light of a mesh: `count` triangles from `first` on.
-    pub(super) fn of_mesh(geometry: &Geometry, first: u32, count: u32, radiance: Rgb) -> AreaLight {
+    /// The light of a mesh: some triangles of the space `space`.
+    pub(super) fn of_mesh(mesh: &MeshSpace, space: u32, triangles: Range<u32>, radiance: Rgb) -> AreaLight {
+        let first = triangles.start;
         let mut bounds = crate::math::Bounds::EMPTY;
-        let mut areas = Vec::with_capacity(count as usize);
-        for index in first..first + count {
-            let [a, b, c] = geometry.corners(index).map(|corner| geometry.mesh_frame.to_world(corner));
+        let mut areas = Vec::with_capacity(triangles.len());
+        for index in triangles {
+            let [a, b, c] = mesh.corners(index).map(|corner| mesh.frame.to_world(corner));
             bounds = [a, b, c].into_iter().fold(bounds, |bounds, corner| bounds.with_point(corner));
             areas.push(0.5 * (b - a).cross(c - a).length());
         }
         let area: f64 = areas.iter().sum();
         AreaLight {
             radiance,
-            shape: LightShape::Mesh { first, area, table: AliasTable::new(&areas) },
+            shape: LightShape::Mesh { space, first, area, table: AliasTable::new(&areas) },
             power: luminance(radiance) * area,
             center: bounds.center(),
             bounding_radius: ((bounds.max - bounds.min) * 0.5).length(),
@@ -136,10 +140,10 @@ impl AreaLight {
                 let point = geometry.solid_point(*solid, cuboid.center, offset, faces[face].normal);
                 Some((point, seen.pdf(face, point.position - p)))
             }
-            LightShape::Mesh { first, area, table } => {
+            LightShape::Mesh { space, first, area, table } => {
                 let (index, _, u0) = table.sample(u[0])?;
                 let [s, t] = square_to_triangle([u0, u[1]]);
-                let point = geometry.triangle_point(first + index, s, t);
+                let point = geometry.triangle_point(PrimitiveId::triangle(*space, first + index), s, t);
                 (point.primitive != at.point.primitive).then(|| (point, mesh_pdf(*area, &point, p)))
             }
         }

@@ -60,15 +60,18 @@ impl Lights {
         };
         for (index, solid) in geometry.solids.iter().enumerate() {
             let radiance = emission[solid.object as usize];
-            if radiance != Rgb::ZERO {
-                add(solid.object, AreaLight::of_solid(geometry, index as u32, radiance));
+            if radiance != Rgb::ZERO
+                && let Some(light) = AreaLight::of_solid(geometry, index as u32, radiance)
+            {
+                add(solid.object, light);
             }
         }
-        for (i, &(object, first)) in geometry.meshes.iter().enumerate() {
-            let radiance = emission[object as usize];
-            let end = geometry.meshes.get(i + 1).map_or(geometry.triangles.len() as u32, |&(_, next)| next);
-            if radiance != Rgb::ZERO && end > first {
-                add(object, AreaLight::of_mesh(geometry, first, end - first, radiance));
+        for (space, mesh) in geometry.world_spaces() {
+            for (object, triangles) in mesh.mesh_ranges() {
+                let radiance = emission[object as usize];
+                if radiance != Rgb::ZERO {
+                    add(object, AreaLight::of_mesh(mesh, space, triangles, radiance));
+                }
             }
         }
         let powers: Vec<f64> = lights.iter().map(|light| light.power).collect();

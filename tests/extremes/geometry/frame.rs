@@ -27,7 +27,7 @@ proptest! {
         // Near the frame, in its own units, so that the ray is taken as it is.
         let start = frame.to_world((frame.bounds.min + frame.bounds.max) * 0.5 + from.normalize_or_zero() * 0.3);
         let ray = Ray { side, ..Ray::new(start, along) };
-        let local = frame.localize(&ray, f64::INFINITY, PrimitiveId::NONE).expect("it starts inside");
+        let local = frame.localize(&ray, f64::INFINITY, [PrimitiveId::NO_TRIANGLE; 2]).expect("it starts inside");
         prop_assert_eq!(local.shift, 0.0);
         prop_assert_eq!(local.direction64(), along);
         let (exact, rounded) = (local.origin64(), local.origin.as_dvec3());
@@ -52,7 +52,7 @@ proptest! {
         let target = middle + aim.normalize_or_zero() * (0.4 * reach);
         let origin = middle + from * (distance * reach);
         let ray = Ray::new(origin, (target - origin).normalize());
-        let Some(local) = frame.localize(&ray, f64::INFINITY, PrimitiveId::NONE) else {
+        let Some(local) = frame.localize(&ray, f64::INFINITY, [PrimitiveId::NO_TRIANGLE; 2]) else {
             // What the roundings of the way hide may be lost.
             prop_assert!(distance * reach + middle.length() > reach * 2f64.powi(46));
             return Ok(());

@@ -26,7 +26,7 @@ fn f64s(corners: [[f32; 3]; 3]) -> [DVec3; 3] {
 fn local(origin: DVec3, direction: DVec3) -> LocalRay {
     let frame = LocalFrame::new(DVec3::ZERO, Bounds { min: DVec3::splat(-0.9), max: DVec3::splat(0.9) });
     let ray = Ray::new(origin, direction);
-    frame.localize(&ray, f64::INFINITY, PrimitiveId::NONE).expect("it starts inside")
+    frame.localize(&ray, f64::INFINITY, [PrimitiveId::NO_TRIANGLE; 2]).expect("it starts inside")
 }
 
 /// Signed volumes of the ray with the edges opposite to the corners, in double-double, and the size of their terms.

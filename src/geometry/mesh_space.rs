@@ -1,0 +1,117 @@
+//! Triangles that share a local f32 space.
+
+use super::frame::LocalRay;
+use super::surface::ROUNDINGS;
+use super::{LocalFrame, SurfacePoint, TriangleHit};
+use crate::math::{Bounds, DVec3};
+
+/// A mesh on its way into a [`super::Geometry`]: corners in world space, or of a mesh that has instances in the space of
+/// its file.
+#[derive(Clone, Debug, Default)]
+pub struct MeshPart {
+    /// Index of the object in the scene; means nothing for a mesh that has instances.
+    pub object: u32,
+    /// Corners.
+    pub positions: Vec<DVec3>,
+    /// Indices into `positions`.
+    pub triangles: Vec<[u32; 3]>,
+}
+
+/// Triangles in the f32 coordinates of one [`LocalFrame`].
+#[derive(Clone, Debug)]
+pub struct MeshSpace {
+    /// From outer coordinates to the local ones: from the world's, or from those of the file of a mesh that has
+    /// instances.
+    pub frame: LocalFrame,
+    /// Corners; the last one is a copy, so that 16 bytes can be read from every corner.
+    pub vertices: Vec<[f32; 3]>,
+    /// Corners of the triangles; a mesh's triangles follow each other, meshes in the order of the scene.
+    pub triangles: Vec<[u32; 3]>,
+    /// Object and first triangle of every mesh, ascending.
+    pub meshes: Vec<(u32, u32)>,
+}
+
+impl MeshSpace {
+    /// Brings meshes into a space of their own; `meshes` ascend by object, all numbers are finite.
+    pub fn new(meshes: &[&MeshPart]) -> MeshSpace {
+        let corners = || meshes.iter().flat_map(|mesh| mesh.positions.iter().copied());
+        let frame = LocalFrame::around(corners().fold(Bounds::EMPTY, Bounds::with_point), median(corners));
+        let count = |length: fn(&MeshPart) -> usize| meshes.iter().map(|mesh| length(mesh)).sum::<usize>();
+        let mut space = MeshSpace {
+            frame,
+            vertices: Vec::with_capacity(count(|mesh| mesh.positions.len()) + 1),
+            triangles: Vec::with_capacity(count(|mesh| mesh.triangles.len())),
+            meshes: Vec::with_capacity(meshes.len()),
+        };
+        for mesh in meshes {
+            let first = space.vertices.len() as u32;
+            space.meshes.push((mesh.object, space.triangles.len() as u32));
+            space.vertices.extend(mesh.positions.iter().map(|&p| frame.to_local(p).as_vec3().to_array()));
+            space.triangles.extend(mesh.triangles.iter().map(|t| t.map(|corner| corner + first)));
+        }
+        space.vertices.extend(space.vertices.last().copied());
+        space
+    }
+
+    /// The corners of a triangle in local f32 coordinates.
+    #[inline(always)]
+    pub fn corners32(&self, triangle: u32) -> [[f32; 3]; 3] {
+        self.triangles[triangle as usize].map(|corner| self.vertices[corner as usize])
+    }
+
+    /// The corners of a triangle in local coordinates, in f64.
+    #[inline(always)]
+    pub fn corners(&self, triangle: u32) -> [DVec3; 3] {
+        self.corners32(triangle).map(|[x, y, z]| DVec3::new(x.into(), y.into(), z.into()))
+    }
+
+    /// Object and triangles of every mesh.
+    pub fn mesh_ranges(&self) -> impl Iterator<Item = (u32, std::ops::Range<u32>)> + '_ {
+        let ends = self.meshes.iter().skip(1).map(|&(_, first)| first);
+        let ends = ends.chain(std::iter::once(self.triangles.len() as u32));
+        self.meshes.iter().zip(ends).map(|(&(object, first), end)| (object, first..end))
+    }
+
+    /// Object of a triangle, and its index in the mesh.
+    pub(super) fn triangle_owner(&self, triangle: u32) -> (u32, u32) {
+        let after = self.meshes.partition_point(|&(_, first)| first <= triangle);
+        let (object, first) = self.meshes[after - 1];
+        (object, triangle - first)
+    }
+
+    /// The distance of a hit in outer units, from the start of the ray that `ray` was made from.
+    pub(super) fn outer_distance(&self, ray: &LocalRay, hit: &TriangleHit) -> f64 {
+        ray.shift + hit.t / self.frame.scale
+    }
+
+    /// The point of a triangle with these weights of its second and third corner, in outer coordinates; it belongs to
+    /// no primitive yet.
+    pub(super) fn point(&self, triangle: u32, u: f64, v: f64) -> SurfacePoint {
+        let [a, b, c] = self.corners(triangle);
+        let (ab, ac) = (b - a, c - a);
+        let local = a + ab * u + ac * v;
+        let size = a.abs() + ab.abs() + ac.abs();
+        // Edges of f32 numbers in [2^-149, 2]: their products do not underflow in f64.
+        let normal = ab.cross(ac).normalize();
+        let error = (self.frame.pivot.abs() + size / self.frame.scale) * ROUNDINGS;
+        SurfacePoint::of_sheet(self.frame.to_world(local), normal, error)
+    }
+
+    /// Bytes of its arrays.
+    pub fn bytes(&self) -> usize {
+        size_of_val(&self.vertices[..]) + size_of_val(&self.triangles[..])
+    }
+}
+
+/// The component-wise lower median: robust against a few far triangles.
+fn median<I: Iterator<Item = DVec3>>(points: impl Fn() -> I) -> DVec3 {
+    let component = |axis: usize| {
+        let mut values: Vec<f64> = points().map(|p| p[axis]).collect();
+        if values.is_empty() {
+            return 0.0;
+        }
+        let middle = (values.len() - 1) / 2;
+        *values.select_nth_unstable_by(middle, f64::total_cmp).1
+    };
+    DVec3::new(component(0), component(1), component(2))
+}
