@@ -160,8 +160,9 @@ impl Parts {
                     self.normals.add(index, mesh, &placement, space.is_some());
                 }
                 let Some(space) = space else { return self.add_mesh(placement.part(index, mesh)) };
-                let instance = placement.instance(space);
-                let bounds = instance.bounds(&self.shared.spaces[space as usize]);
+                let mesh = &self.shared.spaces[space as usize];
+                let instance = placement.instance(space, mesh);
+                let bounds = instance.bounds(mesh);
                 (Shape::Instance(instance), bounds, extent(bounds))
             }
         };

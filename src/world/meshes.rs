@@ -41,8 +41,8 @@ impl Placement {
     }
 
     /// The mesh of a space as it is seen from here.
-    pub(super) fn instance(&self, space: u32) -> Instance {
-        Instance { space, rotation: self.rotation, scale: self.scale, position: self.position }
+    pub(super) fn instance(&self, index: u32, space: &MeshSpace) -> Instance {
+        Instance::new(index, space, self.rotation, self.scale, self.position)
     }
 
     /// A mirrored mesh keeps its outside: the corners are taken the other way round.

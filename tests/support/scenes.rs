@@ -88,6 +88,7 @@ pub(crate) fn on_a_large_ball() -> TestScene {
 fn instances(center: DVec3) -> TestScene {
     let mut random = Random::new(10);
     let meshes = [meshes::sphere(1.0, 12, 0.2, 11), meshes::moved(meshes::soup(100, 0.5, 12), FAR)];
+    let spaces = meshes.iter().map(|mesh| MeshSpace::new(&[mesh])).collect::<Vec<_>>();
     let mut parts = vec![MeshPart { object: 0, ..meshes::moved(meshes::terrain(8, 0.2, 13), center) }];
     let mut solids = Vec::new();
     for object in 1..=40 {
@@ -103,7 +104,7 @@ fn instances(center: DVec3) -> TestScene {
         let scale = random.between(0.1, 0.3);
         // The second mesh lies far from the origin of its own coordinates.
         let offset = if mesh == 1 { rotation * FAR * scale } else { DVec3::ZERO };
-        let instance = Instance { space: mesh, rotation, scale, position: place - offset };
+        let instance = Instance::new(mesh, &spaces[mesh as usize], rotation, scale, place - offset);
         let seen = |&p: &DVec3| instance.to_world(p);
         let MeshPart { positions, triangles, .. } = &meshes[mesh as usize];
         let positions = positions.iter().map(seen).collect();
@@ -111,7 +112,6 @@ fn instances(center: DVec3) -> TestScene {
         solids.push(Solid { object, shape: Shape::Instance(instance) });
     }
     solids.push(Solid { object: 41, ..solids[0] });
-    let spaces = meshes.iter().map(|mesh| MeshSpace::new(&[mesh])).collect();
     let geometry = Geometry::with_instances(solids, &parts[..1], spaces);
     TestScene { name: "instances", geometry, center, size: 1.0, parts }
 }
