@@ -180,10 +180,10 @@ fn anywhere(seed: u64) -> Geometry {
     let y = x.cross(random.direction()).normalize();
     let rotation = DMat3::from_cols(x, y, x.cross(y) * if seed.is_multiple_of(2) { 1.0 } else { -1.0 });
     let position = random.direction() * (away * size * scale);
-    let space = MeshSpace::new(&[&mesh]);
+    let space = MeshSpace::new(vec![mesh.clone()]);
     let instance = Instance::new(0, &space, rotation, scale, position);
     let solids = vec![Solid { object: 0, shape: Shape::Instance(instance) }];
-    Geometry::with_instances(solids, &[], vec![space])
+    Geometry::with_instances(solids, Vec::new(), vec![space])
 }
 
 #[test]
@@ -224,14 +224,14 @@ fn rays_that_leave_an_instance_do_not_meet_it_again() {
 fn a_billion_triangles_take_the_memory_of_one_mesh() {
     let mesh = meshes::sphere(0.5, 316, 0.1, 93);
     let seen = mesh.triangles.len() as f64 * 1e4;
-    let space = MeshSpace::new(&[&mesh]);
+    let space = MeshSpace::new(vec![mesh.clone()]);
     let solids = (0..10_000u32).map(|object| {
         let position = DVec3::new(f64::from(object % 100), f64::from(object / 100), 0.0);
         let instance = Instance::new(0, &space, DMat3::IDENTITY, 1.0, position);
         Solid { object, shape: Shape::Instance(instance) }
     });
     let solids = solids.collect();
-    let geometry = Geometry::with_instances(solids, &[], vec![space]);
+    let geometry = Geometry::with_instances(solids, Vec::new(), vec![space]);
     assert!(seen > 9.9e8);
     let native = Bvh::build(&geometry, &BuildOptions { precision: Precision::Exact, ..Default::default() });
     let native = native.expect("a tree");

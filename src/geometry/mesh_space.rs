@@ -29,28 +29,46 @@ pub struct MeshSpace {
     pub triangles: Vec<[u32; 3]>,
     /// Object and first triangle of every mesh, ascending.
     pub meshes: Vec<(u32, u32)>,
+    /// By how much, at most, the corners of each mesh were moved along an axis when they were rounded, in outer units.
+    pub rounding: Vec<f64>,
 }
 
 impl MeshSpace {
-    /// Brings meshes into a space of their own; `meshes` ascend by object, all numbers are finite.
-    pub fn new(meshes: &[&MeshPart]) -> MeshSpace {
+    /// Brings meshes into a space of their own; they ascend by object, all numbers are finite. They are taken, so that large
+    /// ones are not in memory twice.
+    pub fn new(meshes: Vec<MeshPart>) -> MeshSpace {
         let corners = || meshes.iter().flat_map(|mesh| mesh.positions.iter().copied());
         let frame = LocalFrame::around(corners().fold(Bounds::EMPTY, Bounds::with_point), median(corners));
-        let count = |length: fn(&MeshPart) -> usize| meshes.iter().map(|mesh| length(mesh)).sum::<usize>();
+        let vertices = meshes.iter().map(|mesh| mesh.positions.len()).sum::<usize>() + 1;
         let mut space = MeshSpace {
             frame,
-            vertices: Vec::with_capacity(count(|mesh| mesh.positions.len()) + 1),
-            triangles: Vec::with_capacity(count(|mesh| mesh.triangles.len())),
+            vertices: Vec::with_capacity(vertices),
+            triangles: Vec::new(),
             meshes: Vec::with_capacity(meshes.len()),
+            rounding: Vec::with_capacity(meshes.len()),
         };
-        for mesh in meshes {
-            let first = space.vertices.len() as u32;
-            space.meshes.push((mesh.object, space.triangles.len() as u32));
-            space.vertices.extend(mesh.positions.iter().map(|&p| frame.to_local(p).as_vec3().to_array()));
-            space.triangles.extend(mesh.triangles.iter().map(|t| t.map(|corner| corner + first)));
-        }
+        meshes.into_iter().for_each(|mesh| space.add(mesh));
         space.vertices.extend(space.vertices.last().copied());
         space
+    }
+
+    fn add(&mut self, mesh: MeshPart) {
+        let MeshPart { object, positions, triangles } = mesh;
+        let first = self.vertices.len() as u32;
+        self.meshes.push((object, self.triangles.len() as u32));
+        let mut moved = 0f64;
+        for position in positions {
+            let exact = self.frame.to_local(position);
+            let rounded = exact.as_vec3();
+            moved = moved.max((exact - rounded.as_dvec3()).abs().max_element());
+            self.vertices.push(rounded.to_array());
+        }
+        self.rounding.push(moved / self.frame.scale);
+        if self.triangles.is_empty() {
+            self.triangles = triangles;
+        } else {
+            self.triangles.extend(triangles.into_iter().map(|t| t.map(|corner| corner + first)));
+        }
     }
 
     /// The corners of a triangle in local f32 coordinates.

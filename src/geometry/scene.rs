@@ -59,14 +59,14 @@ const SHARED_RANGE: f64 = 256.0;
 impl Geometry {
     /// Collects primitives without instances. `solids` and `meshes` ascend by object; all numbers are finite.
     pub fn new(solids: Vec<Solid>, meshes: &[MeshPart]) -> Geometry {
-        Geometry::with_instances(solids, meshes, Vec::new())
+        Geometry::with_instances(solids, meshes.to_vec(), Vec::new())
     }
 
     /// Collects primitives; the instances among `solids` name the spaces `shared`.
-    pub fn with_instances(solids: Vec<Solid>, meshes: &[MeshPart], shared: Vec<MeshSpace>) -> Geometry {
+    pub fn with_instances(solids: Vec<Solid>, meshes: Vec<MeshPart>, shared: Vec<MeshSpace>) -> Geometry {
         let instanced = shared.len();
         let mut spaces = shared;
-        spaces.extend(by_size(meshes).iter().map(|group| MeshSpace::new(group)));
+        spaces.extend(by_size(meshes).into_iter().map(MeshSpace::new));
         let bounds: Vec<Bounds> = solids.iter().map(|solid| solid.bounds(&spaces)).collect();
         let (linear_solids, tree_solids) = split_solids(&bounds);
         let together = tree_solids.iter().fold(Bounds::EMPTY, |b, &i| b.union(bounds[i as usize]));
@@ -194,19 +194,20 @@ impl Solid {
 }
 
 /// The meshes that have triangles, in groups that share a space (see [`SHARED_RANGE`]), each in the order of the scene.
-fn by_size(meshes: &[MeshPart]) -> Vec<Vec<&MeshPart>> {
+fn by_size(meshes: Vec<MeshPart>) -> Vec<Vec<MeshPart>> {
     let around = |mesh: &MeshPart| mesh.positions.iter().fold(Bounds::EMPTY, |b, &p| b.with_point(p));
     let mut sized: Vec<(f64, usize)> = (0..meshes.len())
         .filter(|&place| !meshes[place].triangles.is_empty())
         .map(|place| (extent(around(&meshes[place])), place))
         .collect();
     sized.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let mut meshes: Vec<Option<MeshPart>> = meshes.into_iter().map(Some).collect();
     let mut groups = Vec::new();
     while let Some(&(largest, _)) = sized.first() {
         let end = sized.partition_point(|(extent, _)| extent * SHARED_RANGE >= largest);
         let mut places: Vec<usize> = sized.drain(..end.max(1)).map(|(_, place)| place).collect();
         places.sort_unstable();
-        groups.push(places.into_iter().map(|place| &meshes[place]).collect());
+        groups.push(places.into_iter().filter_map(|place| meshes[place].take()).collect());
     }
     groups
 }

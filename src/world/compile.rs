@@ -2,7 +2,7 @@
 
 use super::World;
 use super::light::Lights;
-use super::meshes::{Placement, SharedMeshes, rounding};
+use super::meshes::{Placement, SharedMeshes};
 use super::requires::Requires;
 use super::shading::NormalsBuilder;
 use super::sky::{Sky, SkyKind};
@@ -35,10 +35,7 @@ impl World {
             return Err(Error::Scene(problems));
         }
         let Parts { solids, meshes, shared, normals } = parts;
-        let SharedMeshes { spaces, rounding: shared_rounding, .. } = shared;
-        let geometry = Geometry::with_instances(solids, &meshes, spaces);
-        let mesh_rounding = mesh_rounding(&geometry, &meshes, &shared_rounding, desc.objects.len());
-        drop(meshes);
+        let geometry = Geometry::with_instances(solids, meshes, shared.spaces);
         let emission: Vec<Rgb> =
             desc.objects.iter().map(|object| emission_of(&object.material.kind)).collect();
         let sky = Sky::new(&desc.environment);
@@ -52,7 +49,6 @@ impl World {
             materials: desc.objects.iter().map(|object| material_of(&object.material.kind)).collect(),
             emission,
             normals: normals.finish(),
-            mesh_rounding,
         };
         world.requires = Requires::of(desc, &world);
         Ok(world)
@@ -78,26 +74,6 @@ fn countable(objects: &[ObjectDesc]) -> Result<()> {
 
 /// Indices of triangles, corners and normals stay below this.
 const MOST_INDICES: usize = 0x7fff_ffff;
-
-/// By how much, at most, the corners of each object's mesh have been moved along an axis when they were rounded.
-fn mesh_rounding(geometry: &Geometry, meshes: &[MeshPart], shared: &[f64], objects: usize) -> Vec<f64> {
-    let mut moved = vec![0.0; objects];
-    let part_of =
-        |object: u32| meshes.binary_search_by_key(&object, |mesh| mesh.object).ok().map(|i| &meshes[i]);
-    for (_, space) in geometry.world_spaces() {
-        let mut first = 0;
-        for mesh in space.meshes.iter().filter_map(|&(object, _)| part_of(object)) {
-            moved[mesh.object as usize] = rounding(space, mesh, first);
-            first += mesh.positions.len();
-        }
-    }
-    for solid in &geometry.solids {
-        if let Shape::Instance(instance) = solid.shape {
-            moved[solid.object as usize] = shared[instance.space as usize] * instance.scale;
-        }
-    }
-    moved
-}
 
 /// The component-wise lower median of the objects' positions: a number that stands in the file, so that moving the
 /// whole scene by amounts that its numbers can hold moves it exactly.

@@ -56,8 +56,6 @@ impl Placement {
 pub(super) struct SharedMeshes {
     /// In the coordinates of the files.
     pub(super) spaces: Vec<MeshSpace>,
-    /// By how much, at most, the corners of each were moved along an axis when they were rounded, in its file's units.
-    pub(super) rounding: Vec<f64>,
     by_mesh: HashMap<*const MeshDesc, u32>,
 }
 
@@ -82,9 +80,7 @@ impl SharedMeshes {
     fn add(&mut self, mesh: &MeshDesc) {
         let positions = mesh.positions.iter().map(|&p| DVec3::from(p)).collect();
         let part = MeshPart { object: 0, positions, triangles: mesh.triangles.clone() };
-        let space = MeshSpace::new(&[&part]);
-        self.rounding.push(rounding(&space, &part, 0));
-        self.spaces.push(space);
+        self.spaces.push(MeshSpace::new(vec![part]));
     }
 
     /// The space of the mesh of an object, if it is shared.
@@ -101,14 +97,4 @@ fn dark_mesh(object: &ObjectDesc) -> Option<&Arc<MeshDesc>> {
         ShapeDesc::TriangleMesh { mesh, .. } if !emits => Some(mesh),
         _ => None,
     }
-}
-
-/// By how much, at most, the corners of a mesh were moved along an axis when they were rounded; they begin at `first` in
-/// the space.
-pub(super) fn rounding(space: &MeshSpace, mesh: &MeshPart, first: usize) -> f64 {
-    let corners =
-        space.vertices.iter().skip(first).map(|&[x, y, z]| DVec3::new(x.into(), y.into(), z.into()));
-    let moved =
-        |(&outer, rounded): (&DVec3, DVec3)| (space.frame.to_local(outer) - rounded).abs().max_element();
-    mesh.positions.iter().zip(corners).map(moved).fold(0.0, f64::max) / space.frame.scale
 }

@@ -43,9 +43,6 @@ pub struct World {
     emission: Vec<Rgb>,
     /// Normals of the mesh files, where they are used.
     normals: ShadingNormals,
-    /// By how much, at most, the corners of each object's mesh were moved along an axis when they were rounded to f32; 0
-    /// of other objects.
-    mesh_rounding: Vec<f64>,
 }
 
 /// Where a path meets a surface.

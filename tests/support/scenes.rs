@@ -88,7 +88,7 @@ pub(crate) fn on_a_large_ball() -> TestScene {
 fn instances(center: DVec3) -> TestScene {
     let mut random = Random::new(10);
     let meshes = [meshes::sphere(1.0, 12, 0.2, 11), meshes::moved(meshes::soup(100, 0.5, 12), FAR)];
-    let spaces = meshes.iter().map(|mesh| MeshSpace::new(&[mesh])).collect::<Vec<_>>();
+    let spaces = meshes.iter().map(|mesh| MeshSpace::new(vec![mesh.clone()])).collect::<Vec<_>>();
     let mut parts = vec![MeshPart { object: 0, ..meshes::moved(meshes::terrain(8, 0.2, 13), center) }];
     let mut solids = Vec::new();
     for object in 1..=40 {
@@ -112,7 +112,7 @@ fn instances(center: DVec3) -> TestScene {
         solids.push(Solid { object, shape: Shape::Instance(instance) });
     }
     solids.push(Solid { object: 41, ..solids[0] });
-    let geometry = Geometry::with_instances(solids, &parts[..1], spaces);
+    let geometry = Geometry::with_instances(solids, parts[..1].to_vec(), spaces);
     TestScene { name: "instances", geometry, center, size: 1.0, parts }
 }
 

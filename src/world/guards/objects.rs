@@ -2,7 +2,7 @@
 
 use super::{SIGNIFICANT, diagnostic, severity};
 use crate::error::{Diagnostic, Severity};
-use crate::geometry::{Shape, Solid};
+use crate::geometry::Shape;
 use crate::math::{Bounds, DVec3};
 use crate::scene::desc::{ObjectDesc, SceneDesc, ShapeDesc};
 use crate::world::World;
@@ -45,7 +45,10 @@ fn solids<'d>(world: &World, desc: &'d SceneDesc) -> impl Iterator<Item = Placed
             Shape::Instance(_) => (bounds.center(), (bounds.max - bounds.min).max_element()),
         };
         let error = geometry.solid_point(index, center, DVec3::ZERO, DVec3::X).error.max_element();
-        let error = error.max(world.mesh_rounding[solid.object as usize]);
+        let error = match solid.shape {
+            Shape::Instance(instance) => error.max(geometry.space_of(&instance).rounding[0] * instance.scale),
+            _ => error,
+        };
         let desc = desc.objects.get(solid.object as usize)?;
         Some(Placed { index: solid.object, desc, size, error, bounds })
     })
@@ -54,13 +57,12 @@ fn solids<'d>(world: &World, desc: &'d SceneDesc) -> impl Iterator<Item = Placed
 /// The meshes that lie in the world.
 fn meshes<'d>(world: &World, desc: &'d SceneDesc) -> impl Iterator<Item = Placed<'d>> {
     world.geometry.world_spaces().flat_map(|(_, space)| {
-        space.mesh_ranges().filter_map(|(object, triangles)| {
+        space.mesh_ranges().zip(&space.rounding).filter_map(|((object, triangles), &error)| {
             let corners = triangles.flat_map(|triangle| space.corners(triangle));
             let local = corners.fold(Bounds::EMPTY, Bounds::with_point);
             let bounds =
                 Bounds { min: space.frame.to_world(local.min), max: space.frame.to_world(local.max) };
             let size = (local.max - local.min).max_element() / space.frame.scale;
-            let error = world.mesh_rounding[object as usize];
             let desc = desc.objects.get(object as usize)?;
             (!local.is_empty()).then_some(Placed { index: object, desc, size, error, bounds })
         })
@@ -106,19 +108,26 @@ fn against_last_digit(object: &Placed<'_>) -> Option<Diagnostic> {
 /// Triangles that have lost their area to rounding; of a mesh that has instances it is said of the first.
 fn collapsed_triangles(world: &World, desc: &SceneDesc) -> Vec<(u32, Diagnostic)> {
     let geometry = &world.geometry;
+    // Of the first instance of every shared mesh: its object, and how many times as large as the mesh it is.
     let first_instance = |space: usize| {
-        let shows = |solid: &&Solid| matches!(solid.shape, Shape::Instance(i) if i.space as usize == space);
-        geometry.solids.iter().find(shows).map(|solid| solid.object)
+        geometry.solids.iter().find_map(|solid| match solid.shape {
+            Shape::Instance(instance) if instance.space as usize == space => {
+                Some((solid.object, instance.scale))
+            }
+            _ => None,
+        })
     };
-    let shared = geometry.instanced_spaces().iter().enumerate();
-    let shared = shared
-        .filter_map(|(index, space)| Some((first_instance(index)?, space, 0..space.triangles.len() as u32)));
+    let shared = geometry.instanced_spaces().iter().enumerate().filter_map(|(index, space)| {
+        let (object, scale) = first_instance(index)?;
+        Some((object, space, 0..space.triangles.len() as u32, space.rounding[0] * scale))
+    });
     let in_world = geometry.world_spaces().flat_map(|(_, space)| {
-        space.mesh_ranges().map(move |(object, triangles)| (object, space, triangles))
+        let ranges = space.mesh_ranges().zip(&space.rounding);
+        ranges.map(move |((object, triangles), &error)| (object, space, triangles, error))
     });
     shared
         .chain(in_world)
-        .filter_map(|(object, space, triangles)| {
+        .filter_map(|(object, space, triangles, error)| {
             let count = triangles.len();
             let has_no_area = |&triangle: &u32| {
                 let [a, b, c] = space.corners(triangle);
@@ -127,7 +136,6 @@ fn collapsed_triangles(world: &World, desc: &SceneDesc) -> Vec<(u32, Diagnostic)
             let collapsed = triangles.filter(has_no_area).count();
             let desc = desc.objects.get(object as usize).filter(|_| collapsed > 0)?;
             let severity = if collapsed == count { Severity::Error } else { Severity::Warning };
-            let error = world.mesh_rounding[object as usize];
             let message = format!(
                 "{collapsed} of the {count} triangles of this mesh are not drawn: nothing is left of their area when \
                  corners are rounded, by up to {error:.1e}"
