@@ -80,6 +80,11 @@ impl Bounds {
         self.min * 0.5 + self.max * 0.5
     }
 
+    /// The length of its longest side; negative if nothing is in it.
+    pub fn extent(self) -> f64 {
+        (self.max - self.min).max_element()
+    }
+
     /// Whether nothing is in it.
     pub fn is_empty(self) -> bool {
         !(self.min.cmple(self.max).all())

@@ -4,6 +4,7 @@ use super::frame::LocalRay;
 use super::surface::ROUNDINGS;
 use super::{LocalFrame, SurfacePoint, TriangleHit};
 use crate::math::{Bounds, DVec3};
+use std::ops::Range;
 
 /// A mesh on its way into a [`super::Geometry`]: corners in world space, or of a mesh that has instances in the space of
 /// its file.
@@ -27,10 +28,21 @@ pub struct MeshSpace {
     pub vertices: Vec<[f32; 3]>,
     /// Corners of the triangles; a mesh's triangles follow each other, meshes in the order of the scene.
     pub triangles: Vec<[u32; 3]>,
-    /// Object and first triangle of every mesh, ascending.
-    pub meshes: Vec<(u32, u32)>,
-    /// By how much, at most, the corners of each mesh were moved along an axis when they were rounded, in outer units.
-    pub rounding: Vec<f64>,
+    /// The meshes in it, ascending by object and by first triangle.
+    pub meshes: Vec<MeshEntry>,
+}
+
+/// A mesh of a space.
+#[derive(Clone, Copy, Debug)]
+pub struct MeshEntry {
+    /// Index of the object in the scene; means nothing for a mesh that has instances.
+    pub object: u32,
+    /// Index of its first triangle.
+    pub first: u32,
+    /// Its largest side, in outer units, before corners were rounded.
+    pub extent: f64,
+    /// By how much, at most, its corners were moved along an axis when they were rounded, in outer units.
+    pub rounding: f64,
 }
 
 impl MeshSpace {
@@ -45,7 +57,6 @@ impl MeshSpace {
             vertices: Vec::with_capacity(vertices),
             triangles: Vec::new(),
             meshes: Vec::with_capacity(meshes.len()),
-            rounding: Vec::with_capacity(meshes.len()),
         };
         meshes.into_iter().for_each(|mesh| space.add(mesh));
         space.vertices.extend(space.vertices.last().copied());
@@ -55,15 +66,20 @@ impl MeshSpace {
     fn add(&mut self, mesh: MeshPart) {
         let MeshPart { object, positions, triangles } = mesh;
         let first = self.vertices.len() as u32;
-        self.meshes.push((object, self.triangles.len() as u32));
-        let mut moved = 0f64;
+        let (mut moved, mut bounds) = (0f64, Bounds::EMPTY);
         for position in positions {
+            bounds = bounds.with_point(position);
             let exact = self.frame.to_local(position);
             let rounded = exact.as_vec3();
             moved = moved.max((exact - rounded.as_dvec3()).abs().max_element());
             self.vertices.push(rounded.to_array());
         }
-        self.rounding.push(moved / self.frame.scale);
+        self.meshes.push(MeshEntry {
+            object,
+            first: self.triangles.len() as u32,
+            extent: bounds.extent(),
+            rounding: moved / self.frame.scale,
+        });
         if self.triangles.is_empty() {
             self.triangles = triangles;
         } else {
@@ -83,17 +99,17 @@ impl MeshSpace {
         self.corners32(triangle).map(|[x, y, z]| DVec3::new(x.into(), y.into(), z.into()))
     }
 
-    /// Object and triangles of every mesh.
-    pub fn mesh_ranges(&self) -> impl Iterator<Item = (u32, std::ops::Range<u32>)> + '_ {
-        let ends = self.meshes.iter().skip(1).map(|&(_, first)| first);
+    /// Every mesh with its triangles.
+    pub fn mesh_ranges(&self) -> impl Iterator<Item = (&MeshEntry, Range<u32>)> {
+        let ends = self.meshes.iter().skip(1).map(|mesh| mesh.first);
         let ends = ends.chain(std::iter::once(self.triangles.len() as u32));
-        self.meshes.iter().zip(ends).map(|(&(object, first), end)| (object, first..end))
+        self.meshes.iter().zip(ends).map(|(mesh, end)| (mesh, mesh.first..end))
     }
 
     /// Object of a triangle, and its index in the mesh.
     pub(super) fn triangle_owner(&self, triangle: u32) -> (u32, u32) {
-        let after = self.meshes.partition_point(|&(_, first)| first <= triangle);
-        let (object, first) = self.meshes[after - 1];
+        let after = self.meshes.partition_point(|mesh| mesh.first <= triangle);
+        let MeshEntry { object, first, .. } = self.meshes[after - 1];
         (object, triangle - first)
     }
 

@@ -2,7 +2,8 @@
 //!
 //! # The definition of a hit
 //! The hit of a ray is the primitive with the smallest key (t, object, part) with t in (0, t_max]; t is an f64 distance
-//! along the unit direction. No traversal is in this definition: an accelerator only finds candidates, and the shared
+//! along the unit direction; among the triangles of one space, it is compared as it is there, before it becomes a
+//! distance in the world. No traversal is in this definition: an accelerator only finds candidates, and the shared
 //! routines of this module decide. A brute-force loop over all primitives is the third implementation.
 //!
 //! # Two kinds of primitives, two rays
@@ -34,7 +35,7 @@ pub use cuboid::Cuboid;
 pub use frame::{LocalFrame, LocalRay};
 pub use id::PrimitiveId;
 pub use instance::Instance;
-pub use mesh_space::{MeshPart, MeshSpace};
+pub use mesh_space::{MeshEntry, MeshPart, MeshSpace};
 pub use rectangle::Rectangle;
 pub use scene::{Geometry, Shape, Solid};
 pub use surface::SurfacePoint;

@@ -52,9 +52,14 @@ const LINEAR_SOLIDS: usize = 8;
 /// A solid so many times larger than the median one would widen every node and stays out of the tree.
 const LARGE: f64 = 64.0;
 
-/// Meshes that lie in the world share a space if the smallest is at least one part in so many of the largest: so a fine
-/// mesh beside a huge one keeps its digits, and the boxes around its triangles need no padding for the size of the other.
+/// Meshes that lie in the world share a space if all of them together are at most so many times as large as the smallest:
+/// so a fine mesh beside a huge one, or far from the others, keeps its digits, and the boxes around its triangles need no
+/// padding for the size of the whole.
 const SHARED_RANGE: f64 = 256.0;
+
+/// The most spaces of meshes that lie in the world: every ray is brought into each. If they do not suffice, meshes of a
+/// wider range share one.
+const WORLD_SPACES: usize = 8;
 
 impl Geometry {
     /// Collects primitives without instances. `solids` and `meshes` ascend by object; all numbers are finite.
@@ -66,7 +71,7 @@ impl Geometry {
     pub fn with_instances(solids: Vec<Solid>, meshes: Vec<MeshPart>, shared: Vec<MeshSpace>) -> Geometry {
         let instanced = shared.len();
         let mut spaces = shared;
-        spaces.extend(by_size(meshes).into_iter().map(MeshSpace::new));
+        spaces.extend(in_groups(meshes).into_iter().map(MeshSpace::new));
         let bounds: Vec<Bounds> = solids.iter().map(|solid| solid.bounds(&spaces)).collect();
         let (linear_solids, tree_solids) = split_solids(&bounds);
         let together = tree_solids.iter().fold(Bounds::EMPTY, |b, &i| b.union(bounds[i as usize]));
@@ -194,22 +199,41 @@ impl Solid {
 }
 
 /// The meshes that have triangles, in groups that share a space (see [`SHARED_RANGE`]), each in the order of the scene.
-fn by_size(meshes: Vec<MeshPart>) -> Vec<Vec<MeshPart>> {
+fn in_groups(meshes: Vec<MeshPart>) -> Vec<Vec<MeshPart>> {
     let around = |mesh: &MeshPart| mesh.positions.iter().fold(Bounds::EMPTY, |b, &p| b.with_point(p));
-    let mut sized: Vec<(f64, usize)> = (0..meshes.len())
+    let mut sized: Vec<(Bounds, usize)> = (0..meshes.len())
         .filter(|&place| !meshes[place].triangles.is_empty())
-        .map(|place| (extent(around(&meshes[place])), place))
+        .map(|place| (around(&meshes[place]), place))
         .collect();
-    sized.sort_by(|a, b| b.0.total_cmp(&a.0));
+    sized.sort_by(|a, b| b.0.extent().total_cmp(&a.0.extent()));
+    let ranges = [SHARED_RANGE, SHARED_RANGE * SHARED_RANGE, SHARED_RANGE.powi(3)];
+    let groups = ranges.into_iter().find_map(|range| places_in_range(&sized, range));
+    let groups = groups.unwrap_or_else(|| vec![sized.iter().map(|&(_, place)| place).collect()]);
     let mut meshes: Vec<Option<MeshPart>> = meshes.into_iter().map(Some).collect();
-    let mut groups = Vec::new();
-    while let Some(&(largest, _)) = sized.first() {
-        let end = sized.partition_point(|(extent, _)| extent * SHARED_RANGE >= largest);
-        let mut places: Vec<usize> = sized.drain(..end.max(1)).map(|(_, place)| place).collect();
+    let take = |mut places: Vec<usize>| {
         places.sort_unstable();
-        groups.push(places.into_iter().filter_map(|place| meshes[place].take()).collect());
+        places.into_iter().filter_map(|place| meshes[place].take()).collect()
+    };
+    groups.into_iter().map(take).collect()
+}
+
+/// The places of meshes, the largest first, in groups of at most `range` times the smallest mesh; `None` if that takes
+/// more than [`WORLD_SPACES`].
+fn places_in_range(sized: &[(Bounds, usize)], range: f64) -> Option<Vec<Vec<usize>>> {
+    let mut groups: Vec<(Bounds, Vec<usize>)> = Vec::new();
+    for &(bounds, place) in sized {
+        let fits = |group: &(Bounds, Vec<usize>)| group.0.union(bounds).extent() <= range * bounds.extent();
+        match groups.iter().position(fits) {
+            Some(group) => {
+                let (around, places) = &mut groups[group];
+                *around = around.union(bounds);
+                places.push(place);
+            }
+            None if groups.len() == WORLD_SPACES => return None,
+            None => groups.push((bounds, vec![place])),
+        }
     }
-    groups
+    Some(groups.into_iter().map(|(_, places)| places).collect())
 }
 
 /// Indices of the solids that every ray is tried against, and of those that need a tree.
@@ -218,13 +242,9 @@ fn split_solids(bounds: &[Bounds]) -> (Vec<u32>, Vec<u32>) {
     if bounds.len() <= LINEAR_SOLIDS {
         return (all.collect(), Vec::new());
     }
-    let extents: Vec<f64> = bounds.iter().map(|bounds| extent(*bounds)).collect();
+    let extents: Vec<f64> = bounds.iter().map(|bounds| bounds.extent()).collect();
     let mut sorted = extents.clone();
     sorted.sort_by(f64::total_cmp);
     let cut = (LARGE * sorted[sorted.len() / 2]).max(sorted[sorted.len() - 1 - LINEAR_SOLIDS]);
     all.partition(|&i| extents[i as usize] > cut)
-}
-
-fn extent(bounds: Bounds) -> f64 {
-    (bounds.max - bounds.min).max_element()
 }

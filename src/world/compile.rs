@@ -3,6 +3,7 @@
 use super::World;
 use super::light::Lights;
 use super::meshes::{Placement, SharedMeshes};
+use super::place;
 use super::requires::Requires;
 use super::shading::NormalsBuilder;
 use super::sky::{Sky, SkyKind};
@@ -11,12 +12,14 @@ use crate::geometry::{Ball, Cuboid, Geometry, MeshPart, Rectangle, Shape, Solid}
 use crate::material::{ClearCoat, Diffuse, Material, Reflective, Refractive};
 use crate::math::{Bounds, DMat3, DVec3, Rgb, sin_cos_degrees};
 use crate::scene::desc::{MaterialKind, ObjectDesc, SceneDesc, ShapeDesc};
+use std::collections::HashSet;
+use std::sync::Arc;
 
 impl World {
     /// Compiles a scene. Fails where an object lies beyond what numbers can hold.
     pub fn compile(desc: &SceneDesc) -> Result<World> {
         countable(&desc.objects)?;
-        let origin = median_position(&desc.objects);
+        let origin = place::origin(&desc.objects);
         let mut parts = Parts { shared: SharedMeshes::of(&desc.objects), ..Parts::default() };
         let mut problems = Vec::new();
         for (index, object) in desc.objects.iter().enumerate() {
@@ -55,17 +58,23 @@ impl World {
     }
 }
 
-/// Whether the triangles, corners and normals of all meshes can be counted by 31 bits.
+/// Whether the triangles, corners and normals of all meshes can be counted by 31 bits. What several objects show counts
+/// once, unless they emit: then it is copied.
 fn countable(objects: &[ObjectDesc]) -> Result<()> {
     let mut counts = [0usize; 3];
+    let mut seen = HashSet::new();
     for object in objects {
-        if let ShapeDesc::TriangleMesh { mesh, .. } = &object.shape {
+        if let ShapeDesc::TriangleMesh { mesh, .. } = &object.shape
+            && (emission_of(&object.material.kind) != Rgb::ZERO || seen.insert(Arc::as_ptr(mesh)))
+        {
             let more = [mesh.triangles.len(), mesh.positions.len(), mesh.normals.len()];
             counts = [0, 1, 2].map(|i| counts[i] + more[i]);
             if counts.iter().any(|&count| count >= MOST_INDICES) {
                 let what =
                     format!("takes the meshes of the scene beyond {MOST_INDICES} triangles or corners");
-                return Err(Error::Scene(vec![out_of_range(object, what)]));
+                let help =
+                    "use fewer or coarser meshes, or name the same file several times: it is kept once";
+                return Err(Error::Scene(vec![refusal(object, what, help)]));
             }
         }
     }
@@ -74,29 +83,6 @@ fn countable(objects: &[ObjectDesc]) -> Result<()> {
 
 /// Indices of triangles, corners and normals stay below this.
 const MOST_INDICES: usize = 0x7fff_ffff;
-
-/// The component-wise lower median of the objects' positions: a number that stands in the file, so that moving the
-/// whole scene by amounts that its numbers can hold moves it exactly.
-fn median_position(objects: &[ObjectDesc]) -> DVec3 {
-    if objects.is_empty() {
-        return DVec3::ZERO;
-    }
-    let component = |axis: usize| {
-        let mut values: Vec<f64> = objects.iter().map(|object| position_of(&object.shape)[axis]).collect();
-        values.sort_by(f64::total_cmp);
-        values[(values.len() - 1) / 2]
-    };
-    DVec3::new(component(0), component(1), component(2))
-}
-
-fn position_of(shape: &ShapeDesc) -> DVec3 {
-    match *shape {
-        ShapeDesc::Ball { position, .. }
-        | ShapeDesc::Box { position, .. }
-        | ShapeDesc::Rectangle { position, .. }
-        | ShapeDesc::TriangleMesh { position, .. } => position,
-    }
-}
 
 /// The shapes of a scene, as they are collected.
 #[derive(Default)]
@@ -110,7 +96,7 @@ struct Parts {
 impl Parts {
     /// Adds an object; the box around it, and its shortest edge, its radius, or the largest side of a mesh.
     fn add(&mut self, index: u32, object: &ObjectDesc, origin: DVec3) -> (Bounds, f64) {
-        let at = position_of(&object.shape) - origin;
+        let at = place::position_of(&object.shape) - origin;
         let (shape, bounds, size) = match &object.shape {
             &ShapeDesc::Ball { radius, .. } => {
                 let ball = Ball { center: at, radius };
@@ -139,7 +125,7 @@ impl Parts {
                 let mesh = &self.shared.spaces[space as usize];
                 let instance = placement.instance(space, mesh);
                 let bounds = instance.bounds(mesh);
-                (Shape::Instance(instance), bounds, extent(bounds))
+                (Shape::Instance(instance), bounds, bounds.extent())
             }
         };
         self.solids.push(Solid { object: index, shape });
@@ -151,12 +137,8 @@ impl Parts {
         let bounds = mesh.positions.iter().fold(Bounds::EMPTY, |bounds, &p| bounds.with_point(p));
         self.meshes.push(mesh);
         let nowhere = Bounds { min: DVec3::ZERO, max: DVec3::ZERO };
-        if bounds.is_empty() { (nowhere, 1.0) } else { (bounds, extent(bounds)) }
+        if bounds.is_empty() { (nowhere, 1.0) } else { (bounds, bounds.extent()) }
     }
-}
-
-fn extent(bounds: Bounds) -> f64 {
-    (bounds.max - bounds.min).max_element()
 }
 
 /// Fourth powers of lengths must stay within the range of f64.
@@ -197,12 +179,16 @@ fn material_of(kind: &MaterialKind) -> Material {
 }
 
 fn out_of_range(object: &ObjectDesc, problem: String) -> Diagnostic {
+    refusal(object, problem, "bring positions and sizes into the range that numbers can hold")
+}
+
+fn refusal(object: &ObjectDesc, problem: String, help: &str) -> Diagnostic {
     Diagnostic {
         severity: Severity::Error,
         message: format!("the object {problem}"),
         location: Some(object.location.clone()),
         source_line: None,
-        help: Some("bring positions and sizes into the range that numbers can hold".into()),
+        help: Some(help.into()),
     }
 }
 

@@ -1,14 +1,16 @@
 //! What is rendered: a scene compiled to flat arrays that are joined by indices. Nothing after
 //! [`World::compile`] can fail on a user's input.
 //!
-//! World space is the scene's space moved so that its origin is the component-wise median of the objects' positions,
-//! which is a subtraction in f64 and costs no precision near the objects, wherever the scene lies.
+//! World space is the scene's space moved so that its origin is the component-wise median of the positions of the
+//! objects that are not much larger than the others, which is a subtraction in f64 and costs no precision near the
+//! objects, wherever the scene lies.
 
 mod camera;
 mod compile;
 mod guards;
 pub mod light;
 mod meshes;
+mod place;
 mod requires;
 mod shading;
 mod sky;

@@ -97,22 +97,47 @@ fn a_solid_near_its_position_error_is_warned_of_and_below_it_refused() {
 
 #[test]
 fn a_mesh_that_rounding_distorts_is_warned_of_and_refused_when_nothing_is_left() {
-    // Two meshes of a size share the space that corners are rounded in.
-    let far = |size| seen(vec![tetrahedron(DVec3::ZERO, size), tetrahedron(DVec3::new(1e6, 3e5, 7e5), size)]);
-    assert_said(&far(1e3), &[]);
-    let said_of = |size| {
-        let all = said(&far(size));
-        let first = all.first().cloned().expect("something is said");
-        (first.0, first.1, first.2.split(", since").next().unwrap_or_default().to_owned())
+    // Of so many meshes in so many places some must share a space; most are in the middle, which keeps its digits.
+    let scattered = |spread: f64| {
+        let middle = (0..5).map(|_| tetrahedron(DVec3::ZERO, 1.0));
+        let away = (0..10).map(|i| tetrahedron(DVec3::new(1.0, 0.3, 0.7) * spread * f64::from(i - 4), 1.0));
+        said(&seen(middle.chain(away).collect()))
     };
-    let (error, line, message) = said_of(1.0);
-    assert!(!error && line == Some(2), "{message}");
-    assert!(
-        message.starts_with("the object is 1.0e0 in size, but its corners are rounded by up to"),
-        "{message}"
-    );
-    let (error, line, message) = said_of(1e-3);
-    assert!(error && line == Some(2), "{message}");
+    assert_eq!(scattered(10.0), []);
+    let is_of_corners = |message: &str| {
+        message.starts_with("the object is 1.0e0 in size, but its corners are rounded by up to")
+    };
+    let far = scattered(7e3);
+    assert!(far.iter().any(|(_, _, message)| is_of_corners(message)), "{far:?}");
+    assert!(far.iter().all(|(error, _, _)| !error), "{far:?}");
+    let lost = scattered(1e10);
+    assert!(lost.iter().any(|(error, _, message)| *error && is_of_corners(message)), "{lost:?}");
+}
+
+#[test]
+fn a_small_part_of_a_large_mesh_is_warned_of() {
+    let corners = |tip: f64| {
+        let far = [[1e12, 0.0, 1e12], [0.0, 1e12, 1e12], [1e12, 1e12, 1e12]];
+        let near = |x: f64| [[x, 0.0, 0.0], [x + 1.0, 0.0, 0.0], [x, 1.0, 0.0]];
+        let all = [near(0.0), near(0.0), near(tip), far].concat();
+        mesh(all, vec![[0, 1, 2], [3, 4, 5], [6, 7, 8], [9, 10, 11]])
+    };
+    // Near the middle corners keep their digits.
+    assert_said(&seen(vec![corners(0.0)]), &[]);
+    for (tip, what) in [(1e8, "are not drawn right"), (4e5, "are bent")] {
+        let all = said(&seen(vec![corners(tip)]));
+        let expected = format!("1 of the 4 triangles of this mesh {what}");
+        assert!(all.iter().any(|(error, _, text)| !error && text.starts_with(&expected)), "{all:?}");
+    }
+}
+
+#[test]
+fn many_warnings_are_summed_up() {
+    let ground = ball(DVec3::new(0.0, 0.0, -1e7), 1e7);
+    let small = (0..300).map(|i| ball(DVec3::new(f64::from(i), 0.0, 0.0) * 1e-5, 1e-6));
+    let all = said(&seen([ground].into_iter().chain(small).collect()));
+    assert_eq!(all.len(), 21, "{all:?}");
+    assert_eq!(all[20].2, "280 more warnings about objects");
 }
 
 #[test]
@@ -140,8 +165,8 @@ fn triangles_that_rounding_leaves_without_area_are_counted() {
     let triangles = vec![[0, 1, 2], [3, 4, 6], [5, 6, 7], [8, 9, 10], [8, 10, 11], [8, 11, 9]];
     let desc = seen(vec![mesh(corners, triangles)]);
     let all = said(&desc);
-    let expected = "3 of the 6 triangles of this mesh are not drawn: nothing is left of their area when corners are \
-                    rounded, by up to";
+    let expected = "3 of the 6 triangles of this mesh are not drawn right: little or nothing is left of them when \
+                    corners are rounded, by up to";
     assert!(
         all.iter().any(|(error, line, text)| !error && *line == Some(1) && text.starts_with(expected)),
         "{all:?}"

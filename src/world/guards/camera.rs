@@ -135,7 +135,7 @@ fn is_dark_inside(world: &World, solid: u32) -> bool {
     let mut solids = geometry.solids.iter().zip(0..);
     let has_light = solids
         .any(|(other, index)| is_light(other.object) && overlaps(geometry.solid_bounds(index)))
-        || geometry.world_spaces().any(|(_, space)| space.meshes.iter().any(|&(object, _)| is_light(object)));
+        || geometry.world_spaces().any(|(_, space)| space.meshes.iter().any(|mesh| is_light(mesh.object)));
     let object = geometry.solids[solid as usize].object;
     !matches!(world.material(object), Material::Refractive(_)) && !has_light
 }

@@ -21,11 +21,32 @@ impl World {
     /// # Errors
     /// [`Error::Scene`] with all of them, if the picture of an object or the view would be meaningless.
     pub fn guards(&self, desc: &SceneDesc, width: u32) -> Result<Vec<Diagnostic>> {
-        let mut found = objects::check(self, desc);
+        let mut found = summed_up(objects::check(self, desc));
         found.extend(camera::check(self, desc, width));
         let is_error = |diagnostic: &Diagnostic| diagnostic.severity == Severity::Error;
         if found.iter().any(is_error) { Err(Error::Scene(found)) } else { Ok(found) }
     }
+}
+
+/// The most warnings that are said of objects one by one.
+const MOST_WARNINGS: usize = 20;
+
+/// All errors and the first warnings, and how many more of these there are.
+fn summed_up(all: Vec<Diagnostic>) -> Vec<Diagnostic> {
+    let mut warnings = 0;
+    let mut said: Vec<Diagnostic> = Vec::new();
+    for diagnostic in all {
+        let is_warning = diagnostic.severity == Severity::Warning;
+        warnings += usize::from(is_warning);
+        if !is_warning || warnings <= MOST_WARNINGS {
+            said.push(diagnostic);
+        }
+    }
+    if warnings > MOST_WARNINGS {
+        let message = format!("{} more warnings about objects", warnings - MOST_WARNINGS);
+        said.push(diagnostic(Severity::Warning, None, message, "mend the first ones"));
+    }
+    said
 }
 
 fn diagnostic(severity: Severity, location: Option<&Location>, message: String, help: &str) -> Diagnostic {

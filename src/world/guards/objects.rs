@@ -2,10 +2,12 @@
 
 use super::{SIGNIFICANT, diagnostic, severity};
 use crate::error::{Diagnostic, Severity};
-use crate::geometry::Shape;
+use crate::geometry::{MeshEntry, MeshSpace, Shape};
 use crate::math::{Bounds, DVec3};
 use crate::scene::desc::{ObjectDesc, SceneDesc, ShapeDesc};
 use crate::world::World;
+use rayon::prelude::*;
+use std::ops::Range;
 
 const MOVE: &str = "bring the objects closer together, or make this one larger";
 
@@ -28,7 +30,7 @@ pub(super) fn check(world: &World, desc: &SceneDesc) -> Vec<Diagnostic> {
         let alone = against_its_place(object).into_iter().chain(against_last_digit(object));
         found.extend(alone.map(|diagnostic| (object.index, diagnostic)));
     }
-    found.extend(collapsed_triangles(world, desc));
+    found.extend(mangled_triangles(world, desc));
     found.extend(against_the_coarsest(&placed));
     found.sort_by_key(|(index, _)| *index);
     found.into_iter().map(|(_, diagnostic)| diagnostic).collect()
@@ -46,7 +48,9 @@ fn solids<'d>(world: &World, desc: &'d SceneDesc) -> impl Iterator<Item = Placed
         };
         let error = geometry.solid_point(index, center, DVec3::ZERO, DVec3::X).error.max_element();
         let error = match solid.shape {
-            Shape::Instance(instance) => error.max(geometry.space_of(&instance).rounding[0] * instance.scale),
+            Shape::Instance(instance) => {
+                error.max(geometry.space_of(&instance).meshes[0].rounding * instance.scale)
+            }
             _ => error,
         };
         let desc = desc.objects.get(solid.object as usize)?;
@@ -57,12 +61,12 @@ fn solids<'d>(world: &World, desc: &'d SceneDesc) -> impl Iterator<Item = Placed
 /// The meshes that lie in the world.
 fn meshes<'d>(world: &World, desc: &'d SceneDesc) -> impl Iterator<Item = Placed<'d>> {
     world.geometry.world_spaces().flat_map(|(_, space)| {
-        space.mesh_ranges().zip(&space.rounding).filter_map(|((object, triangles), &error)| {
+        space.mesh_ranges().filter_map(|(mesh, triangles)| {
+            let &MeshEntry { object, extent: size, rounding: error, .. } = mesh;
             let corners = triangles.flat_map(|triangle| space.corners(triangle));
             let local = corners.fold(Bounds::EMPTY, Bounds::with_point);
             let bounds =
                 Bounds { min: space.frame.to_world(local.min), max: space.frame.to_world(local.max) };
-            let size = (local.max - local.min).max_element() / space.frame.scale;
             let desc = desc.objects.get(object as usize)?;
             (!local.is_empty()).then_some(Placed { index: object, desc, size, error, bounds })
         })
@@ -105,8 +109,46 @@ fn against_last_digit(object: &Placed<'_>) -> Option<Diagnostic> {
         .then(|| diagnostic(Severity::Warning, Some(&object.desc.location), message(), help))
 }
 
-/// Triangles that have lost their area to rounding; of a mesh that has instances it is said of the first.
-fn collapsed_triangles(world: &World, desc: &SceneDesc) -> Vec<(u32, Diagnostic)> {
+/// A triangle is as it should be to the eye if its corners were moved by less than this part of it.
+const SLIGHT: f64 = 1.0 / 64.0;
+
+/// What rounding has done to the triangles of a mesh.
+#[derive(Clone, Copy)]
+struct Damage {
+    /// Triangles that were moved by more than their size, or have no area left.
+    lost: usize,
+    /// Other triangles that were moved by more than [`SLIGHT`] of their size.
+    bent: usize,
+    /// The size of the smallest of both, in outer units.
+    smallest: f64,
+}
+
+impl Damage {
+    fn of(space: &MeshSpace, mesh: &MeshEntry, triangles: Range<u32>) -> Damage {
+        let none = Damage { lost: 0, bent: 0, smallest: f64::INFINITY };
+        let look = |triangle: u32| {
+            let [a, b, c] = space.corners(triangle);
+            let bounds = [a, b, c].into_iter().fold(Bounds::EMPTY, Bounds::with_point);
+            let size = bounds.extent() / space.frame.scale;
+            // A coordinate is rounded by half a step at most.
+            let farthest = bounds.min.abs().max(bounds.max.abs()).max_element();
+            let error = (farthest / space.frame.scale * f64::from(f32::EPSILON) / 2.0).min(mesh.rounding);
+            let lost = error >= size || (b - a).cross(c - a) == DVec3::ZERO;
+            let bent = !lost && error > SLIGHT * size;
+            let smallest = if lost || bent { size } else { f64::INFINITY };
+            Damage { lost: lost.into(), bent: bent.into(), smallest }
+        };
+        let join = |a: Damage, b: Damage| Damage {
+            lost: a.lost + b.lost,
+            bent: a.bent + b.bent,
+            smallest: a.smallest.min(b.smallest),
+        };
+        triangles.into_par_iter().with_min_len(4096).map(look).reduce(|| none, join)
+    }
+}
+
+/// Triangles that rounding has taken away or bent; of a mesh that has instances it is said of the first.
+fn mangled_triangles(world: &World, desc: &SceneDesc) -> Vec<(u32, Diagnostic)> {
     let geometry = &world.geometry;
     // Of the first instance of every shared mesh: its object, and how many times as large as the mesh it is.
     let first_instance = |space: usize| {
@@ -119,53 +161,70 @@ fn collapsed_triangles(world: &World, desc: &SceneDesc) -> Vec<(u32, Diagnostic)
     };
     let shared = geometry.instanced_spaces().iter().enumerate().filter_map(|(index, space)| {
         let (object, scale) = first_instance(index)?;
-        Some((object, space, 0..space.triangles.len() as u32, space.rounding[0] * scale))
+        let (mesh, triangles) = space.mesh_ranges().next()?;
+        Some((object, scale, space, mesh, triangles))
     });
     let in_world = geometry.world_spaces().flat_map(|(_, space)| {
-        let ranges = space.mesh_ranges().zip(&space.rounding);
-        ranges.map(move |((object, triangles), &error)| (object, space, triangles, error))
+        space.mesh_ranges().map(move |(mesh, triangles)| (mesh.object, 1.0, space, mesh, triangles))
     });
-    shared
-        .chain(in_world)
-        .filter_map(|(object, space, triangles, error)| {
-            let count = triangles.len();
-            let has_no_area = |&triangle: &u32| {
-                let [a, b, c] = space.corners(triangle);
-                (b - a).cross(c - a) == DVec3::ZERO
-            };
-            let collapsed = triangles.filter(has_no_area).count();
-            let desc = desc.objects.get(object as usize).filter(|_| collapsed > 0)?;
-            let severity = if collapsed == count { Severity::Error } else { Severity::Warning };
+    let mut found = Vec::new();
+    for (object, scale, space, mesh, triangles) in shared.chain(in_world) {
+        let (count, damage) = (triangles.len(), Damage::of(space, mesh, triangles));
+        let Some(desc) = desc.objects.get(object as usize) else { continue };
+        let (error, smallest) = (mesh.rounding * scale, damage.smallest * scale);
+        let mut say = |severity, message| {
+            found.push((object, diagnostic(severity, Some(&desc.location), message, MOVE)));
+        };
+        if damage.lost > 0 {
+            let severity = if damage.lost == count { Severity::Error } else { Severity::Warning };
             let message = format!(
-                "{collapsed} of the {count} triangles of this mesh are not drawn: nothing is left of their area when \
-                 corners are rounded, by up to {error:.1e}"
+                "{} of the {count} triangles of this mesh are not drawn right: little or nothing is left of them when \
+                 corners are rounded, by up to {error:.1e}",
+                damage.lost
             );
-            Some((object, diagnostic(severity, Some(&desc.location), message, MOVE)))
-        })
-        .collect()
+            say(severity, message);
+        }
+        if damage.bent > 0 {
+            let message = format!(
+                "{} of the {count} triangles of this mesh are bent: some are no larger than {smallest:.1e}, and corners \
+                 are rounded by up to {error:.1e}",
+                damage.bent
+            );
+            say(Severity::Warning, message);
+        }
+    }
+    found
 }
 
-/// Small objects that touch the one whose points are known least.
+/// So many of the objects whose points are known least are held against the others.
+const COARSEST: usize = 16;
+
+/// Small objects that touch one whose points are known far less.
 fn against_the_coarsest(placed: &[Placed<'_>]) -> Vec<(u32, Diagnostic)> {
-    let Some(coarsest) = placed.iter().max_by(|a, b| a.error.total_cmp(&b.error)) else { return Vec::new() };
-    let touches = |object: &&Placed<'_>| {
-        let (a, b) = (object.bounds, coarsest.bounds);
-        a.min.cmple(b.max + coarsest.error).all() && b.min.cmple(a.max + coarsest.error).all()
+    let mut coarsest: Vec<&Placed<'_>> = placed.iter().collect();
+    coarsest.sort_by(|a, b| b.error.total_cmp(&a.error));
+    coarsest.truncate(COARSEST);
+    let touch = |object: &Placed<'_>, coarse: &Placed<'_>| {
+        let (a, b) = (object.bounds, coarse.bounds);
+        a.min.cmple(b.max + coarse.error).all() && b.min.cmple(a.max + coarse.error).all()
     };
-    let small =
-        |object: &&Placed<'_>| !std::ptr::eq(*object, coarsest) && coarsest.error * SIGNIFICANT > object.size;
     placed
         .iter()
-        .filter(small)
-        .filter(touches)
-        .map(|object| {
+        .filter_map(|object| {
+            let hides = |coarse: &&&Placed<'_>| {
+                coarse.index != object.index
+                    && coarse.error * SIGNIFICANT > object.size
+                    && coarse.error > object.error
+                    && touch(object, coarse)
+            };
+            let coarse = coarsest.iter().find(hides)?;
             let message = format!(
                 "the object is {:.1e} in size, but points of the object at {}, which it may touch, are known to within \
                  {:.1e}",
-                object.size, coarsest.desc.location, coarsest.error
+                object.size, coarse.desc.location, coarse.error
             );
             let help = "make the larger object smaller, or this one larger";
-            (object.index, diagnostic(Severity::Warning, Some(&object.desc.location), message, help))
+            Some((object.index, diagnostic(Severity::Warning, Some(&object.desc.location), message, help)))
         })
         .collect()
 }

@@ -67,10 +67,10 @@ impl Lights {
             }
         }
         for (space, mesh) in geometry.world_spaces() {
-            for (object, triangles) in mesh.mesh_ranges() {
-                let radiance = emission[object as usize];
+            for (entry, triangles) in mesh.mesh_ranges() {
+                let radiance = emission[entry.object as usize];
                 if radiance != Rgb::ZERO {
-                    add(object, AreaLight::of_mesh(mesh, space, triangles, radiance));
+                    add(entry.object, AreaLight::of_mesh(mesh, space, triangles, radiance));
                 }
             }
         }
