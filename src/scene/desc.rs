@@ -131,7 +131,8 @@ pub enum Axes {
     SwapYZ,
 }
 
-/// The content of a mesh file. All numbers are finite, all indices in range, no triangle is without area.
+/// The content of a mesh file. All numbers are finite, all indices in range, no triangle is without area, and each
+/// position, normal and texture coordinate is used by one.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeshDesc {
     /// Vertex positions.

@@ -1,7 +1,7 @@
 //! Inputs made to cost time or memory, and files that can't be read.
 
 use super::{CAMERA, diagnostics_of};
-use pathtracer::error::Error;
+use pathtracer::error::{Diagnostic, Error};
 use pathtracer::scene;
 use std::fmt::Write;
 use std::fs::{self, File};
@@ -98,6 +98,55 @@ fn meshes_of_gigabytes_and_endless_lines() {
         let message = &diagnostics[0].message;
         assert!(message.ends_with(&format!("which cannot be read: {reason}")), "{message}");
     }
+}
+
+/// The diagnostics of a scene with the mesh file `obj`.
+fn mesh_diagnostics(obj: &str) -> Vec<Diagnostic> {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("mesh.obj"), obj).unwrap();
+    let text = format!("{CAMERA}Objects:\n{}", super::mesh_object("mesh.obj"));
+    match scene::parse(&text, &folder.path().join("scene.yaml")) {
+        Err(Error::Scene(diagnostics)) => diagnostics,
+        other => panic!("expected errors, got {other:?}"),
+    }
+}
+
+#[test]
+fn a_line_continued_without_end() {
+    let diagnostics = mesh_diagnostics(&"\\\n".repeat(33 << 20));
+    let message = &diagnostics[0].message;
+    assert!(message.ends_with("which cannot be read: a line is longer than 64 MiB"), "{message}");
+}
+
+#[test]
+fn mistakes_far_into_a_mesh_have_their_places_and_counts() {
+    let count = 300_000;
+    let mut mesh = String::new();
+    for i in 0..count {
+        writeln!(mesh, "v {i} {} 0", i % 2).unwrap();
+    }
+    writeln!(mesh, "f 1 2 3\nf -1 \\\n -300001 1\nf 1 2 300001\nv 1 nan 0\nv 0 0 1").unwrap();
+    // More than three pieces.
+    assert!(mesh.len() > 3 << 20);
+    let found: Vec<(String, usize, usize)> = mesh_diagnostics(&mesh)
+        .into_iter()
+        .map(|diagnostic| {
+            let place = diagnostic.location.unwrap();
+            (diagnostic.message, place.line, place.column)
+        })
+        .collect();
+    let text = |message: &str, line, column| (message.to_owned(), line, column);
+    // The vertex with the mistake counts, so that its neighbours' mistakes are not two. The face may name it.
+    let expected = [
+        text("vertex -300001 does not exist: the number of vertices before this line is 300000", 300_003, 2),
+        text("a vertex is made of finite numbers, found \"nan\"", 300_005, 5),
+    ];
+    assert_eq!(found, expected);
+    let mesh = mesh.replace("v 1 nan 0\nv 0 0 1\n", "");
+    let found = mesh_diagnostics(&mesh);
+    let message = "vertex 300001 does not exist: the number of vertices in the file is 300000";
+    assert_eq!(found[1].message, message);
+    assert_eq!(found[1].location.as_ref().unwrap().line, 300_004);
 }
 
 #[test]

@@ -7,7 +7,8 @@ use std::fs;
 const NONE: [u32; 3] = [u32::MAX; 3];
 const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
-fn load(obj: &[u8]) -> Scene {
+/// The scene around the mesh file `obj`.
+pub(super) fn load(obj: &[u8]) -> Scene {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("mesh.obj"), obj).unwrap();
     let object = "{Type: TriangleMesh, Filepath: mesh.obj, Position: [0, 0, 0], Material: {Type: Diffuse}}";
@@ -15,25 +16,26 @@ fn load(obj: &[u8]) -> Scene {
     scene::parse(&text, &folder.path().join("scene.yaml")).unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn mesh_of(scene: &Scene) -> MeshDesc {
+/// The mesh of a scene's first object.
+pub(super) fn mesh_of(scene: &Scene) -> MeshDesc {
     let ShapeDesc::TriangleMesh { mesh, .. } = &scene.desc.objects[0].shape else { panic!("no mesh") };
     MeshDesc::clone(mesh)
 }
 
 /// The mesh in `obj`, which must not give warnings.
-fn mesh(obj: &str) -> MeshDesc {
+pub(super) fn mesh(obj: &str) -> MeshDesc {
     let scene = load(obj.as_bytes());
     assert_eq!(scene.warnings, []);
     mesh_of(&scene)
 }
 
 /// The corners of each triangle.
-fn corners(mesh: &MeshDesc) -> Vec<[[f64; 3]; 3]> {
+pub(super) fn corners(mesh: &MeshDesc) -> Vec<[[f64; 3]; 3]> {
     mesh.triangles.iter().map(|triangle| triangle.map(|i| mesh.positions[i as usize])).collect()
 }
 
 /// The area of a mesh in the plane z = 0, triangles wound the other way counted as negative.
-fn signed_area(mesh: &MeshDesc) -> f64 {
+pub(super) fn signed_area(mesh: &MeshDesc) -> f64 {
     let doubled = |[a, b, c]: [[f64; 3]; 3]| (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
     corners(mesh).into_iter().map(doubled).sum::<f64>() / 2.0
 }
@@ -227,8 +229,8 @@ fn a_polygon_keeps_the_normals_and_texture_coordinates_of_its_corners() {
 }
 
 #[test]
-fn a_mesh_of_several_groups_of_a_million_faces_is_whole() {
-    // A strip of 1,100,000 triangles crosses the border at which the reader closes a group.
+fn a_mesh_of_a_million_faces_is_whole() {
+    // A strip of triangles.
     let count = 1_100_000u32;
     let mut text = String::new();
     for i in 0..count + 2 {

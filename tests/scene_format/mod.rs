@@ -2,6 +2,8 @@
 
 /// Every key, its default and what it becomes.
 mod keys;
+/// How the reader takes a mesh file apart and together.
+mod mesh_files;
 /// What an OBJ file may hold.
 mod meshes;
 /// How a scene may be written, and where it finds its meshes.

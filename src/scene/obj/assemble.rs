@@ -1,123 +1,239 @@
-//! From the groups that `tobj` read to one mesh of triangles.
+//! From the pieces of a file to one mesh of triangles.
 
 use super::Loaded;
-use super::cleaner::Survey;
-use super::polygon;
-use super::statement::FaceForm;
+use super::piece::{Piece, Run};
+use super::polygon::Splitter;
 use crate::math::DVec3;
 use crate::scene::desc::MeshDesc;
+use rayon::prelude::*;
 use std::ops::Range;
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 /// Stands for the indices of a face that has none.
 const NO_INDICES: [u32; 3] = [u32::MAX; 3];
 
-/// Joins the groups. Vertices that several groups use are there once for each.
-pub(super) fn assemble(models: Vec<tobj::Model>, survey: &Survey) -> Loaded {
-    let mut loaded = Loaded::default();
-    let mut forms = survey.faces.iter();
-    for model in models {
-        append(&mut loaded, model.mesh, &mut forms);
-    }
-    let mesh = &mut loaded.mesh;
-    if mesh.normal_indices.iter().all(|indices| *indices == NO_INDICES) {
-        (mesh.normals, mesh.normal_indices) = (Vec::new(), Vec::new());
-    }
-    if mesh.texcoord_indices.iter().all(|indices| *indices == NO_INDICES) {
-        (mesh.texcoords, mesh.texcoord_indices) = (Vec::new(), Vec::new());
-    }
-    loaded
+/// Joins the pieces, in their order. `None` if a face names something that does not exist.
+pub(super) fn assemble(mut pieces: Vec<Piece>) -> Option<Loaded> {
+    let lengths = pieces.iter().map(|p| [p.positions.len(), p.texcoords.len(), p.normals.len()]).collect();
+    let (before, total) = running_sums(lengths);
+    let mut mesh = MeshDesc {
+        positions: join(pieces.iter_mut().map(|piece| std::mem::take(&mut piece.positions)).collect()),
+        texcoords: join(pieces.iter_mut().map(|piece| std::mem::take(&mut piece.texcoords)).collect()),
+        normals: join(pieces.iter_mut().map(|piece| std::mem::take(&mut piece.normals)).collect()),
+        ..MeshDesc::default()
+    };
+    let mut faces = Faces::room_for(&pieces);
+    let outputs = faces.split(&pieces);
+    let builders = pieces.into_par_iter().zip(outputs).zip(before).map(|((mut piece, output), before)| {
+        piece.resolve(before, total)?;
+        Some(Builder { mesh: &mesh, piece: &piece, output, made: Made::default() }.build())
+    });
+    let made: Vec<Made> = builders.collect::<Option<_>>()?;
+    faces.close_gaps(&made);
+    drop_unused(&mut mesh.positions, &mut faces.triangles);
+    drop_unused(&mut mesh.texcoords, &mut faces.texcoords);
+    drop_unused(&mut mesh.normals, &mut faces.normals);
+    (mesh.triangles, mesh.texcoord_indices, mesh.normal_indices) =
+        (faces.triangles, faces.texcoords, faces.normals);
+    let sum = |count: fn(&Made) -> usize| made.iter().map(count).sum();
+    Some(Loaded { mesh, dropped: sum(|made| made.dropped), fanned: sum(|made| made.fanned) })
 }
 
-/// Appends a group; `forms` yields the form of each of its faces.
-fn append<'f>(loaded: &mut Loaded, mut group: tobj::Mesh, forms: &mut impl Iterator<Item = &'f FaceForm>) {
-    let mesh = &mut loaded.mesh;
-    let bases = [mesh.positions.len(), mesh.texcoords.len(), mesh.normals.len()].map(|length| length as u32);
-    let positions = std::mem::take(&mut group.positions);
-    mesh.positions.extend_from_slice(positions.as_chunks().0);
-    mesh.normals.extend(group.normals.as_chunks().0.iter().map(single_precision));
-    mesh.texcoords.extend(group.texcoords.as_chunks().0.iter().map(|uv: &[f64; 2]| uv.map(|x| x as f32)));
-    let group = Group { mesh: group, bases };
-    let mut end = 0;
-    for face in 0.. {
-        let start = end;
-        end += group.mesh.face_arities.get(face).map_or(3, |&arity| arity as usize);
-        if end > group.mesh.indices.len() {
-            break;
+/// The sums of the counts before each entry, and of all.
+fn running_sums(mut counts: Vec<[usize; 3]>) -> (Vec<[usize; 3]>, [usize; 3]) {
+    let mut total = [0; 3];
+    for counts in &mut counts {
+        for (count, total) in counts.iter_mut().zip(&mut total) {
+            (*count, *total) = (*total, *total + *count);
         }
-        let Some(form) = forms.next() else { break };
-        group.add_face(start..end, *form, loaded);
     }
+    (counts, total)
 }
 
-/// A normal in f32, rescaled if it would overflow or vanish there. A normal of length 0 has no direction; nothing
-/// refers to what stands for it.
-fn single_precision(normal: &[f64; 3]) -> [f32; 3] {
-    let near = normal.map(|x| x as f32);
-    let largest = normal.iter().fold(0f64, |largest, x| largest.max(x.abs()));
-    if largest == 0.0 {
-        [0.0, 0.0, 1.0]
-    } else if (1e-30..1e30).contains(&largest) {
-        near
-    } else {
-        normal.map(|x| (x / largest) as f32)
-    }
+/// One after the other. Each part is freed when it has been copied.
+fn join<T: Copy + Default + Send + Sync>(parts: Vec<Vec<T>>) -> Vec<T> {
+    let mut whole = vec![T::default(); parts.iter().map(Vec::len).sum()];
+    let mut rest = &mut whole[..];
+    let places: Vec<&mut [T]> =
+        parts.iter().map(|part| rest.split_off_mut(..part.len()).unwrap_or_default()).collect();
+    parts.into_par_iter().zip(places).for_each(|(part, place)| place.copy_from_slice(&part));
+    whole
 }
 
-/// A group without its positions, and where its indices start in the whole mesh.
-struct Group {
-    mesh: tobj::Mesh,
-    /// Of positions, texture coordinates and normals.
-    bases: [u32; 3],
+/// The indices of triangles into positions, texture coordinates and normals. The last two are empty if no face gives
+/// them.
+#[derive(Default)]
+struct Faces {
+    triangles: Vec<[u32; 3]>,
+    texcoords: Vec<[u32; 3]>,
+    normals: Vec<[u32; 3]>,
 }
 
-impl Group {
-    /// Appends the triangles of the face with the given corners.
-    fn add_face(&self, corners: Range<usize>, form: FaceForm, loaded: &mut Loaded) {
-        let first = corners.start;
-        let mesh = &mut loaded.mesh;
-        let added = if corners.len() == 3 {
-            self.add_triangle([first, first + 1, first + 2], form, mesh)
-        } else {
-            let points: Vec<DVec3> = corners.map(|corner| self.position(corner, mesh)).collect();
-            let split = polygon::split(&points);
-            loaded.fanned += usize::from(split.fanned);
-            let add = |triangle: &[usize; 3]| self.add_triangle(triangle.map(|i| first + i), form, mesh);
-            split.triangles.iter().map(add).filter(|added| *added).count() > 0
+/// Where the triangles of one piece go.
+struct Output<'m> {
+    triangles: &'m mut [[u32; 3]],
+    texcoords: &'m mut [[u32; 3]],
+    normals: &'m mut [[u32; 3]],
+}
+
+impl Faces {
+    /// Room for all triangles of the pieces.
+    fn room_for(pieces: &[Piece]) -> Faces {
+        let count = pieces.iter().map(Piece::triangles).sum();
+        let room = |kind: usize| {
+            let is_given = pieces.iter().any(|piece| !piece.corners[kind].is_empty());
+            vec![[0; 3]; if is_given { count } else { 0 }]
         };
-        loaded.dropped += usize::from(!added);
+        Faces { triangles: room(0), texcoords: room(1), normals: room(2) }
     }
 
-    /// Appends the triangle of three corners; false if it has no area.
-    fn add_triangle(&self, corners: [usize; 3], form: FaceForm, mesh: &mut MeshDesc) -> bool {
-        let [a, b, c] = corners.map(|corner| self.position(corner, mesh));
+    /// The room of each piece.
+    fn split(&mut self, pieces: &[Piece]) -> Vec<Output<'_>> {
+        let Faces { triangles, texcoords, normals } = self;
+        let (mut triangles, mut texcoords, mut normals) =
+            (&mut triangles[..], &mut texcoords[..], &mut normals[..]);
+        let cut = |piece: &Piece| {
+            let count = piece.triangles();
+            Output {
+                triangles: triangles.split_off_mut(..count).unwrap_or_default(),
+                texcoords: texcoords.split_off_mut(..count).unwrap_or_default(),
+                normals: normals.split_off_mut(..count).unwrap_or_default(),
+            }
+        };
+        pieces.iter().map(cut).collect()
+    }
+
+    /// Removes the room that was left over because triangles were dropped, and the indices that no triangle has.
+    fn close_gaps(&mut self, made: &[Made]) {
+        for indices in [&mut self.triangles, &mut self.texcoords, &mut self.normals] {
+            if indices.is_empty() {
+                continue;
+            }
+            let (mut from, mut to) = (0, 0);
+            for Made { triangles, room, .. } in made {
+                if from != to {
+                    indices.copy_within(from..from + triangles, to);
+                }
+                (from, to) = (from + room, to + triangles);
+            }
+            indices.truncate(to);
+            if indices.par_iter().all(|indices| *indices == NO_INDICES) {
+                indices.clear();
+            }
+            indices.shrink_to_fit();
+        }
+    }
+}
+
+/// Removes the values that no triangle uses.
+fn drop_unused<T: Copy + Send + Sync>(values: &mut Vec<T>, indices: &mut [[u32; 3]]) {
+    let used: Vec<AtomicBool> = values.iter().map(|_| AtomicBool::new(false)).collect();
+    indices.as_flattened().par_iter().filter_map(|&index| used.get(index as usize)).for_each(|used| {
+        // Threads that only read the flag of a shared vertex do not disturb each other.
+        if !used.load(Relaxed) {
+            used.store(true, Relaxed);
+        }
+    });
+    let used: Vec<bool> = used.into_iter().map(AtomicBool::into_inner).collect();
+    if used.iter().all(|used| *used) {
+        return;
+    }
+    let places: Vec<u32> = used
+        .iter()
+        .scan(0, |kept, &used| {
+            let place = *kept;
+            *kept += u32::from(used);
+            Some(place)
+        })
+        .collect();
+    let mut flags = used.into_iter();
+    values.retain(|_| flags.next().unwrap_or(false));
+    values.shrink_to_fit();
+    indices.as_flattened_mut().par_iter_mut().for_each(|index| {
+        *index = places.get(*index as usize).copied().unwrap_or(*index);
+    });
+}
+
+/// What became of the faces of a piece.
+#[derive(Default)]
+struct Made {
+    /// Triangles made.
+    triangles: usize,
+    /// Triangles for which there was room.
+    room: usize,
+    /// Faces without area.
+    dropped: usize,
+    /// Concave faces split as if they were convex.
+    fanned: usize,
+}
+
+/// Makes the triangles of a piece.
+struct Builder<'m> {
+    /// The mesh without its triangles.
+    mesh: &'m MeshDesc,
+    piece: &'m Piece,
+    output: Output<'m>,
+    made: Made,
+}
+
+impl Builder<'_> {
+    fn build(mut self) -> Made {
+        let mut splitter = Splitter::default();
+        // Where the corners of the next face start in each list of the piece.
+        let mut starts = [0; 3];
+        for run in &self.piece.runs {
+            let arity = run.arity as usize;
+            let steps =
+                [arity, if run.form.texcoords { arity } else { 0 }, if run.form.normals { arity } else { 0 }];
+            for _ in 0..run.faces {
+                self.add_face(run, starts, &mut splitter);
+                for (start, step) in starts.iter_mut().zip(steps) {
+                    *start += step;
+                }
+            }
+        }
+        self.made.room = self.output.triangles.len();
+        self.made
+    }
+
+    /// Appends the triangles of a face.
+    fn add_face(&mut self, run: &Run, starts: [usize; 3], splitter: &mut Splitter) {
+        let added = if run.arity == 3 {
+            self.add_triangle([0, 1, 2], run, starts)
+        } else {
+            let corners: Range<usize> = starts[0]..starts[0] + run.arity as usize;
+            let split = splitter.split(corners.map(|corner| self.position(corner)));
+            self.made.fanned += usize::from(split.fanned);
+            split.triangles.iter().filter(|triangle| self.add_triangle(**triangle, run, starts)).count() > 0
+        };
+        self.made.dropped += usize::from(!added);
+    }
+
+    /// Appends the triangle of three corners of a face; false if it has no area.
+    fn add_triangle(&mut self, corners: [usize; 3], run: &Run, starts: [usize; 3]) -> bool {
+        let [a, b, c] = corners.map(|corner| self.position(starts[0] + corner));
         if (b - a).cross(c - a) == DVec3::ZERO {
             return false;
         }
-        let [position, texcoord, normal] = self.bases;
-        let group = &self.mesh;
-        mesh.triangles.push(corners.map(|corner| position + group.indices[corner]));
-        let texcoords = corners.map(|corner| group.texcoord_indices.get(corner));
-        mesh.texcoord_indices.push(match texcoords {
-            [Some(a), Some(b), Some(c)] if form.texcoords => [a, b, c].map(|index| texcoord + index),
-            _ => NO_INDICES,
-        });
-        let normals =
-            corners.map(|corner| group.normal_indices.get(corner).filter(|&&n| self.has_direction(n)));
-        mesh.normal_indices.push(match normals {
-            [Some(a), Some(b), Some(c)] if form.normals => [a, b, c].map(|index| normal + index),
-            _ => NO_INDICES,
-        });
+        let indices = |kind: usize| corners.map(|corner| self.piece.corners[kind][starts[kind] + corner]);
+        let at = self.made.triangles;
+        self.output.triangles[at] = indices(0);
+        if let Some(texcoords) = self.output.texcoords.get_mut(at) {
+            *texcoords = if run.form.texcoords { indices(1) } else { NO_INDICES };
+        }
+        if let Some(normals) = self.output.normals.get_mut(at) {
+            let given = if run.form.normals { indices(2) } else { NO_INDICES };
+            // A normal of length 0 has no direction.
+            let has_direction = |index: &u32| self.mesh.normals.get(*index as usize) != Some(&[0.0; 3]);
+            *normals = if given.iter().all(has_direction) { given } else { NO_INDICES };
+        }
+        self.made.triangles += 1;
         true
     }
 
-    /// The position of a corner. The group's positions stand at the end of those of the mesh.
-    fn position(&self, corner: usize, mesh: &MeshDesc) -> DVec3 {
-        DVec3::from(mesh.positions[(self.bases[0] + self.mesh.indices[corner]) as usize])
-    }
-
-    /// Whether a normal of the group is longer than 0.
-    fn has_direction(&self, normal: u32) -> bool {
-        let first = normal as usize * 3;
-        self.mesh.normals.get(first..first + 3).is_some_and(|normal| normal.iter().any(|x| *x != 0.0))
+    /// The position of a corner of the piece.
+    #[inline]
+    fn position(&self, corner: usize) -> DVec3 {
+        DVec3::from(self.mesh.positions[self.piece.corners[0][corner] as usize])
     }
 }

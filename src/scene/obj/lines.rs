@@ -1,85 +1,91 @@
 //! The logical lines of an OBJ file: continued lines joined, comments set aside, places kept.
 
 use crate::error::Diagnostic;
-use std::io::{self, BufRead, Read};
 
-/// Longest physical line in bytes; a polygon of a million corners fits.
-const MAX_LINE: u64 = 64 << 20;
-
-/// A line after the joining of continuations.
-#[derive(Default)]
-pub(super) struct Line {
-    bytes: Vec<u8>,
-    /// Where the comment starts, or the end.
-    end: usize,
-    /// Number of its first physical line, from 1.
-    number: usize,
-    /// Where each further physical line starts in `bytes`.
-    joins: Vec<usize>,
+/// A logical line without its comment. A byte stands as far from its start as in the file.
+#[derive(Clone, Copy)]
+pub(super) struct Line<'b> {
+    /// The line, and after it what comes next in the file, starting with a byte that belongs to no word.
+    pub(super) bytes: &'b [u8],
+    /// Its length.
+    pub(super) length: usize,
 }
 
-impl Line {
-    /// The line without its comment.
-    pub(super) fn statement(&self) -> &[u8] {
-        self.bytes.get(..self.end).unwrap_or_default()
-    }
-
-    /// Line and column of byte `offset`, and the excerpt of the physical line.
-    pub(super) fn place(&self, offset: usize) -> (usize, usize, String) {
-        let join = self.joins.partition_point(|&start| start <= offset);
-        let start = join.checked_sub(1).and_then(|i| self.joins.get(i)).copied().unwrap_or(0);
-        let end = self.joins.get(join).copied().unwrap_or(self.bytes.len());
-        let text = |end: usize| String::from_utf8_lossy(self.bytes.get(start..end).unwrap_or_default());
-        let column = text(offset).chars().count() + 1;
-        (self.number + join, column, Diagnostic::excerpt(text(end).trim_end(), column))
-    }
+/// Yields the logical lines of some bytes.
+pub(super) struct Lines<'b> {
+    bytes: &'b [u8],
+    at: usize,
+    /// The last line if it was joined.
+    joined: Vec<u8>,
 }
 
-/// Reads logical lines.
-pub(super) struct Lines<R> {
-    reader: R,
-    read: usize,
-    line: Line,
-}
-
-impl<R: BufRead> Lines<R> {
-    /// The lines of `reader`.
-    pub(super) fn new(reader: R) -> Lines<R> {
-        Lines { reader, read: 0, line: Line::default() }
+impl<'b> Lines<'b> {
+    /// The lines of `bytes`.
+    pub(super) fn of(bytes: &'b [u8]) -> Lines<'b> {
+        Lines { bytes, at: 0, joined: Vec::new() }
     }
 
-    /// The next line, or `None` at the end. The encoding does not matter: statements are ASCII.
-    pub(super) fn next(&mut self) -> io::Result<Option<&Line>> {
-        let line = &mut self.line;
-        line.bytes.clear();
-        line.joins.clear();
-        line.number = self.read + 1;
-        loop {
-            let start = line.bytes.len();
-            let length = self.reader.by_ref().take(MAX_LINE).read_until(b'\n', &mut line.bytes)?;
-            if length == 0 {
-                break;
+    /// Where the next line starts.
+    pub(super) fn start(&self) -> usize {
+        self.at
+    }
+
+    /// The next line. The encoding does not matter: statements are ASCII.
+    #[inline]
+    pub(super) fn next(&mut self) -> Option<Line<'_>> {
+        let bytes = self.bytes.get(self.at..).filter(|rest| !rest.is_empty())?;
+        let Some(length) = memchr::memchr3(b'\n', b'#', b'\\', bytes) else {
+            self.at = self.bytes.len();
+            return Some(Line { bytes, length: bytes.len() });
+        };
+        match bytes[length] {
+            b'\n' => self.at += length + 1,
+            b'#' => {
+                let comment = &bytes[length..];
+                self.at += length + memchr::memchr(b'\n', comment).map_or(comment.len(), |length| length + 1);
             }
-            if length as u64 == MAX_LINE {
-                return Err(io::Error::new(io::ErrorKind::InvalidData, "a line is longer than 64 MiB"));
-            }
-            self.read += 1;
-            if self.read == 1 && line.bytes.starts_with(b"\xEF\xBB\xBF") {
-                line.bytes.drain(..3);
-            }
-            let text = line.bytes.trim_ascii_end().len();
-            line.bytes.truncate(text.max(start));
-            let comment = line.bytes[start..].iter().position(|&byte| byte == b'#');
-            line.end = comment.map_or(line.bytes.len(), |at| start + at);
-            if comment.is_some() || line.bytes[start..].last() != Some(&b'\\') {
-                return Ok(Some(&self.line));
-            }
-            // The backslash becomes the blank that separates words.
-            line.bytes.pop();
-            line.bytes.push(b' ');
-            line.end = line.bytes.len();
-            line.joins.push(line.end);
+            _ => return Some(self.join()),
         }
-        Ok((self.read >= line.number).then_some(&self.line))
+        Some(Line { bytes, length })
     }
+
+    /// A line that holds a backslash, with blanks for the backslash and the line end where it goes on.
+    #[cold]
+    fn join(&mut self) -> Line<'_> {
+        self.joined.clear();
+        let start = self.at;
+        while let Some(rest) = self.bytes.get(self.at..).filter(|rest| !rest.is_empty()) {
+            let line = rest.split(|byte| *byte == b'\n').next().unwrap_or_default();
+            self.at = (self.at + line.len() + 1).min(self.bytes.len());
+            let Some(text) = continued(line) else {
+                self.joined.extend(line.iter().take_while(|byte| **byte != b'#'));
+                break;
+            };
+            self.joined.extend_from_slice(text);
+            self.joined.resize(self.at - start, b' ');
+        }
+        Line { bytes: &self.joined, length: self.joined.len() }
+    }
+}
+
+/// The text of a physical line before its backslash, if that is the last of it and no comment.
+fn continued(line: &[u8]) -> Option<&[u8]> {
+    let text = line.trim_ascii_end().strip_suffix(b"\\")?;
+    (!text.contains(&b'#')).then_some(text)
+}
+
+/// Line, counted from 0, and column, from 1, of the byte at `offset`, and the excerpt of the physical line.
+pub(super) fn place(bytes: &[u8], offset: usize) -> (usize, usize, String) {
+    let (before, after) = bytes.split_at_checked(offset).unwrap_or((bytes, &[]));
+    let start = memchr::memrchr(b'\n', before).map_or(0, |at| at + 1);
+    let end = offset + memchr::memchr(b'\n', after).unwrap_or(after.len());
+    let line = bytes.get(start..end).unwrap_or_default();
+    let text = String::from_utf8_lossy(continued(line).unwrap_or(line));
+    let column = String::from_utf8_lossy(before.get(start..).unwrap_or_default()).chars().count() + 1;
+    (count(before), column, Diagnostic::excerpt(text.trim_end(), column))
+}
+
+/// How many line ends `bytes` holds.
+pub(super) fn count(bytes: &[u8]) -> usize {
+    memchr::memchr_iter(b'\n', bytes).count()
 }

@@ -1,19 +1,34 @@
-//! OBJ files, read by `tobj` behind a filter that checks every statement (see `cleaner`).
+//! OBJ files, read in parallel.
+//!
+//! A file is cut at line ends into pieces (`cuts`). Each piece is read on its own (`piece`), into numbers and corners
+//! whose indices may still wait for the counts of the pieces before; then the pieces become one mesh (`assemble`). At
+//! the first mistake all that is given up, and the file is read again from its start, line by line, to tell what is
+//! wrong and where (`survey`). Both ways read statements by the same code (`lines`, `statement`, `number`).
+//!
+//! The mesh is the same for any number of threads. Its parts are there at most twice while it is made; of the file
+//! there is one piece a thread.
 
 mod assemble;
-mod cleaner;
+mod cuts;
 mod lines;
+mod number;
+mod piece;
 mod polygon;
 mod statement;
+mod survey;
 
 use super::desc::MeshDesc;
-use cleaner::Cleaner;
-pub(crate) use cleaner::Fault;
+use cuts::Cuts;
+use piece::Piece;
+use rayon::prelude::*;
 use std::fs::File;
-use std::io::{self, BufReader};
+use std::io;
 use std::path::Path;
+pub(crate) use survey::Fault;
+use survey::Survey;
 
-/// Largest mesh file in bytes. Its counts fit `u32`: a vertex takes at least 8 bytes, a corner 2.
+/// Largest mesh file in bytes. Its counts fit 30 bits, since a vertex takes at least 8 bytes and a texture coordinate
+/// at least 5.
 const MAX_BYTES: u64 = 4 << 30;
 
 /// A mesh as read.
@@ -49,20 +64,24 @@ impl From<io::Error> for Failure {
 
 /// Reads a mesh.
 pub(crate) fn load(path: &Path) -> Result<Loaded, Failure> {
-    if path.metadata()?.len() > MAX_BYTES {
+    let file = File::open(path)?;
+    let length = file.metadata()?.len();
+    if length > MAX_BYTES {
         return Err(Failure::Unreadable(format!("it is larger than {} GiB", MAX_BYTES >> 30)));
     }
-    let open = || File::open(path).map(|file| BufReader::with_capacity(1 << 16, file));
-    let mut cleaner = Cleaner::new(open()?, None);
-    let options = tobj::LoadOptions::default();
-    let outcome = tobj::load_obj_buf(&mut cleaner, &options, |_| Err(tobj::LoadError::MaterialParseError));
-    let mut survey = cleaner.finish()?;
-    if survey.looks_ahead() {
-        survey = Cleaner::new(open()?, Some(survey.counts)).finish()?;
+    let cuts = Cuts::find(&file, length)?;
+    let parse = |buffer: &mut Vec<u8>, piece| Piece::parse(cuts.read(piece, buffer).ok()?);
+    let pieces = (0..cuts.pieces()).into_par_iter().map_init(Vec::new, parse).collect::<Option<Vec<Piece>>>();
+    pieces.and_then(assemble::assemble).ok_or_else(|| explain(&cuts))
+}
+
+/// Why a file was not read.
+fn explain(cuts: &Cuts<'_>) -> Failure {
+    match Survey::of(cuts) {
+        Err(error) => error.into(),
+        Ok(survey) if survey.faults.is_empty() => {
+            Failure::Unreadable("it changed while it was read".to_owned())
+        }
+        Ok(survey) => Failure::Faults { first: survey.faults, more: survey.more_faults },
     }
-    if !survey.faults.is_empty() {
-        return Err(Failure::Faults { first: survey.faults, more: survey.more_faults });
-    }
-    let (models, _) = outcome.map_err(|error| Failure::Unreadable(error.to_string()))?;
-    Ok(assemble::assemble(models, &survey))
 }

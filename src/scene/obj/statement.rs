@@ -1,10 +1,11 @@
 //! The statements of an OBJ file that matter: `v`, `vt`, `vn` and `f`, checked word by word.
 
-use super::cleaner::Survey;
+use super::lines::Line;
+use super::number;
 use crate::scene::diagnostic::quote;
 
-/// Nothing, or the byte offset in the line of what is wrong, and what.
-pub(super) type Checked = Result<(), (usize, String)>;
+/// The byte offset in the statement of what is wrong, and what.
+pub(super) type Mistake = (usize, String);
 
 /// Which of the optional indices a face gives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,173 +19,249 @@ pub(super) struct FaceForm {
 /// The words of a statement with their byte offsets.
 #[derive(Clone, Copy)]
 pub(super) struct Words<'l> {
-    statement: &'l [u8],
+    line: Line<'l>,
     at: usize,
 }
 
 impl<'l> Words<'l> {
-    /// The words of `statement`.
-    pub(super) fn of(statement: &'l [u8]) -> Words<'l> {
-        Words { statement, at: 0 }
+    /// The words of `line`.
+    pub(super) fn of(line: Line<'l>) -> Words<'l> {
+        Words { line, at: 0 }
     }
+
+    /// The bytes from here on, also those behind the line.
+    #[inline]
+    fn rest(&self) -> &'l [u8] {
+        self.line.bytes.get(self.at..).unwrap_or_default()
+    }
+
+    /// The byte here.
+    #[inline]
+    fn peek(&self) -> Option<u8> {
+        if self.at < self.line.length { self.line.bytes.get(self.at).copied() } else { None }
+    }
+
+    /// Whether a word ends here.
+    #[inline]
+    fn is_between(&self) -> bool {
+        self.peek().is_none_or(is_blank)
+    }
+
+    /// Moves to the next word; false if there is none.
+    #[inline]
+    fn go_on(&mut self) -> bool {
+        while let Some(byte) = self.peek() {
+            if !is_blank(byte) {
+                return true;
+            }
+            self.at += 1;
+        }
+        false
+    }
+
+    /// The number that the next word is; `None` if there is no word or it is something else.
+    #[inline(always)]
+    fn number(&mut self) -> Option<f64> {
+        if !self.go_on() {
+            return None;
+        }
+        let start = self.at;
+        if let Some((number, length)) = number::short(self.rest()) {
+            self.at += length;
+            if self.is_between() {
+                return Some(number);
+            }
+            self.at = start;
+        }
+        self.long_number()
+    }
+
+    /// A number with many digits, a large exponent or a plus, or no number.
+    #[cold]
+    fn long_number(&mut self) -> Option<f64> {
+        number::of_word(self.next()?.1)
+    }
+
+    /// The index that stands here, up to the next slash or blank.
+    #[inline(always)]
+    fn index(&mut self) -> Option<i64> {
+        let start = self.at;
+        if let Some((index, length)) = number::integer(self.rest()) {
+            self.at += length;
+            if self.is_between() || self.peek() == Some(b'/') {
+                return Some(index);
+            }
+            self.at = start;
+        }
+        self.unusual_index()
+    }
+
+    /// An index with a sign or leading zeros, or no index.
+    #[cold]
+    fn unusual_index(&mut self) -> Option<i64> {
+        let start = self.at;
+        while !self.is_between() && self.peek() != Some(b'/') {
+            self.at += 1;
+        }
+        std::str::from_utf8(self.line.bytes.get(start..self.at)?).ok()?.parse().ok()
+    }
+}
+
+/// As `u8::is_ascii_whitespace`, quick about the bytes of words.
+#[inline]
+fn is_blank(byte: u8) -> bool {
+    byte <= b' ' && byte.is_ascii_whitespace()
 }
 
 impl<'l> Iterator for Words<'l> {
     type Item = (usize, &'l [u8]);
 
+    #[inline]
     fn next(&mut self) -> Option<(usize, &'l [u8])> {
-        let rest = self.statement.get(self.at..)?;
-        let start = self.at + rest.iter().position(|byte| !byte.is_ascii_whitespace())?;
-        let rest = self.statement.get(start..)?;
-        let length = rest.iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len());
-        self.at = start + length;
-        Some((start, rest.get(..length)?))
+        if !self.go_on() {
+            return None;
+        }
+        let start = self.at;
+        while !self.is_between() {
+            self.at += 1;
+        }
+        Some((start, self.line.bytes.get(start..self.at)?))
     }
 }
 
 /// A statement that holds numbers.
 pub(super) struct Numbers {
-    keyword: &'static str,
-    /// Index into [`Survey::counts`].
-    kind: usize,
+    /// Which of `v`, `vt`, `vn`, as 0, 1, 2.
+    pub(super) kind: usize,
     /// What it is called in messages.
     name: &'static str,
     /// How many numbers it needs.
     least: usize,
-    /// How many `tobj` reads. What follows (colours, a third texture coordinate) does not matter.
+    /// How many are used. What follows (colours, a third texture coordinate) does not matter.
     used: usize,
+    /// Whether a fourth number, if it is the last, is a weight.
+    weighted: bool,
     /// The largest magnitude.
     limit: f64,
 }
 
 /// `v x y z [w]` or `v x y z r g b`.
 pub(super) const POSITION: Numbers =
-    Numbers { keyword: "v", kind: 0, name: "a vertex", least: 3, used: 3, limit: f64::MAX };
+    Numbers { kind: 0, name: "a vertex", least: 3, used: 3, weighted: true, limit: f64::MAX };
 /// `vt u [v [w]]`.
 pub(super) const TEXCOORD: Numbers = Numbers {
-    keyword: "vt",
     kind: 1,
     name: "a texture coordinate",
     least: 1,
     used: 2,
+    weighted: false,
     limit: f32::MAX as f64,
 };
 /// `vn x y z`.
 pub(super) const NORMAL: Numbers =
-    Numbers { keyword: "vn", kind: 2, name: "a normal", least: 3, used: 3, limit: f64::MAX };
+    Numbers { kind: 2, name: "a normal", least: 3, used: 3, weighted: false, limit: f64::MAX };
 
-/// Checks a statement of numbers, which starts at `at`, and appends to `batch` what `tobj` shall read.
-pub(super) fn numbers(
-    at: usize,
-    words: Words<'_>,
-    rule: &Numbers,
-    survey: &mut Survey,
-    batch: &mut Vec<u8>,
-) -> Checked {
-    survey.counts[rule.kind] += 1;
+/// Reads a statement of numbers, which starts at `at`; what is not given is 0. A vertex is divided by its weight.
+pub(super) fn numbers(at: usize, words: Words<'_>, rule: &Numbers) -> Result<[f64; 3], Mistake> {
+    let mut values = [0.0; 3];
+    let mut left = words;
+    for (found, value) in values.iter_mut().enumerate().take(rule.used) {
+        if found >= rule.least && !left.go_on() {
+            break;
+        }
+        match left.number() {
+            Some(number) if number.abs() <= rule.limit => *value = number,
+            _ => return Err(mistake(at, words, rule)),
+        }
+    }
+    if rule.weighted && left.go_on() { divide(at, words, rule, values) } else { Ok(values) }
+}
+
+/// Divides a vertex by the fourth number if there are just four.
+#[cold]
+fn divide(at: usize, words: Words<'_>, rule: &Numbers, values: [f64; 3]) -> Result<[f64; 3], Mistake> {
+    if words.count() != 4 {
+        return Ok(values);
+    }
+    let Some(weight) = words.last().and_then(|(_, word)| finite(word, rule)) else {
+        return Err(mistake(at, words, rule));
+    };
+    let position = values.map(|x| x / weight);
+    if position.iter().all(|x| x.is_finite()) {
+        Ok(position)
+    } else {
+        Err((at, format!("the vertex divided by its weight {weight} is not finite")))
+    }
+}
+
+fn finite(word: &[u8], rule: &Numbers) -> Option<f64> {
+    number::of_word(word).filter(|x| x.abs() <= rule.limit)
+}
+
+/// What is wrong with a statement of numbers.
+#[cold]
+fn mistake(at: usize, mut words: Words<'_>, rule: &Numbers) -> Mistake {
     let count = words.count();
     if count < rule.least {
         let s = if rule.least == 1 { "" } else { "s" };
-        return Err((at, format!("{} needs {} number{s}, found {count}", rule.name, rule.least)));
+        return (at, format!("{} needs {} number{s}, found {count}", rule.name, rule.least));
     }
-    batch.extend_from_slice(rule.keyword.as_bytes());
-    let weighted = rule.kind == POSITION.kind && count == 4;
-    let mut values = [0.0; 4];
-    for ((at, word), value) in words.take(rule.used + usize::from(weighted)).zip(&mut values) {
-        let number = std::str::from_utf8(word).ok().and_then(|word| word.parse::<f64>().ok());
-        let Some(number) = number.filter(|x| x.abs() <= rule.limit) else {
-            return Err((at, format!("{} is made of finite numbers, found {}", rule.name, shown(word))));
-        };
-        *value = number;
-        batch.push(b' ');
-        batch.extend_from_slice(word);
-    }
-    // `tobj` divides a vertex by its weight.
-    let [position @ .., weight] = values;
-    if weighted && !position.iter().all(|x| (x / weight).is_finite()) {
-        return Err((at, format!("the vertex divided by its weight {weight} is not finite")));
-    }
-    for _ in count..rule.used {
-        batch.extend_from_slice(b" 0");
-    }
-    Ok(())
+    let (at, word) = words.find(|(_, word)| finite(word, rule).is_none()).unwrap_or((at, b""));
+    (at, format!("{} is made of finite numbers, found {}", rule.name, shown(word)))
 }
 
-/// Checks a face, which starts at `at`, and appends it to `batch`. `limits` are the counts of the whole file, if an
-/// earlier pass knows them.
+/// Reads a face, which starts at `at`: appends the indices of its corners to `corners` and returns their number and
+/// the form. `resolve` makes what is appended of an index into the vertices, texture coordinates or normals (0, 1, 2).
 pub(super) fn face(
     at: usize,
-    words: Words<'_>,
-    limits: Option<[usize; 3]>,
-    survey: &mut Survey,
-    batch: &mut Vec<u8>,
-) -> Checked {
+    mut words: Words<'_>,
+    mut resolve: impl FnMut(usize, i64) -> Result<u32, String>,
+    corners: &mut [Vec<u32>; 3],
+) -> Result<(u32, FaceForm), Mistake> {
     let mut form = None;
-    let mut corners = 0;
-    batch.push(b'f');
-    for (at, word) in words {
-        let corner = corner(word, limits, survey).map_err(|message| (at, message))?;
+    let mut count = 0;
+    while words.go_on() {
+        let at = words.at;
+        let corner = corner(&mut words, &mut resolve, corners).map_err(|message| (at, message))?;
         if *form.get_or_insert(corner) != corner {
             let message = "a face gives texture coordinates, and normals, for all of its corners or for none";
             return Err((at, message.to_owned()));
         }
-        batch.push(b' ');
-        batch.extend_from_slice(word);
-        corners += 1;
+        count += 1;
     }
     match form {
-        Some(form) if corners >= 3 => survey.faces.push(form),
-        _ => return Err((at, format!("a face needs at least 3 corners, found {corners}"))),
+        Some(form) if count >= 3 => Ok((count, form)),
+        _ => Err((at, format!("a face needs at least 3 corners, found {count}"))),
     }
-    Ok(())
 }
 
-/// Checks a corner: `v`, `v/vt`, `v//vn` or `v/vt/vn`.
-fn corner(word: &[u8], limits: Option<[usize; 3]>, survey: &mut Survey) -> Result<FaceForm, String> {
+/// Reads a corner: `v`, `v/vt`, `v//vn` or `v/vt/vn`.
+#[inline]
+fn corner(
+    words: &mut Words<'_>,
+    resolve: &mut impl FnMut(usize, i64) -> Result<u32, String>,
+    corners: &mut [Vec<u32>; 3],
+) -> Result<FaceForm, String> {
+    let mut here = *words;
     let mut given = [false; 3];
-    for (kind, part) in word.split(|&byte| byte == b'/').enumerate() {
-        if part.is_empty() && kind > 0 {
-            continue;
+    for kind in 0.. {
+        if kind == 0 || !(words.is_between() || words.peek() == Some(b'/')) {
+            let (Some(index), Some(given), Some(indices)) =
+                (words.index(), given.get_mut(kind), corners.get_mut(kind))
+            else {
+                let word = here.next().map_or(&[][..], |(_, word)| word);
+                let form = "a corner is v, v/vt, v//vn or v/vt/vn with whole numbers, found";
+                return Err(format!("{form} {}", shown(word)));
+            };
+            *given = true;
+            indices.push(resolve(kind, index)?);
         }
-        let index = std::str::from_utf8(part).ok().and_then(|part| part.parse::<i64>().ok());
-        let (Some(index), Some(given)) = (index, given.get_mut(kind)) else {
-            return Err(format!(
-                "a corner is v, v/vt, v//vn or v/vt/vn with whole numbers, found {}",
-                shown(word)
-            ));
-        };
-        *given = true;
-        check_index(kind, index, limits, survey)?;
+        if words.peek() != Some(b'/') {
+            break;
+        }
+        words.at += 1;
     }
     Ok(FaceForm { texcoords: given[1], normals: given[2] })
-}
-
-/// Checks an index into the vertices, texture coordinates or normals (`kind` 0, 1, 2).
-fn check_index(
-    kind: usize,
-    index: i64,
-    limits: Option<[usize; 3]>,
-    survey: &mut Survey,
-) -> Result<(), String> {
-    const NAMES: [[&str; 2]; 3] =
-        [["vertex", "vertices"], ["texture coordinate", "texture coordinates"], ["normal", "normals"]];
-    let [one, many] = NAMES[kind];
-    let count = survey.counts[kind];
-    // `tobj` computes with three times an index.
-    let magnitude = usize::try_from(index.unsigned_abs()).unwrap_or(usize::MAX);
-    if index == 0 {
-        Err(format!("{one} 0 does not exist: indices start at 1"))
-    } else if index < 0 && magnitude > count {
-        Err(format!("{one} {index} does not exist: the number of {many} before this line is {count}"))
-    } else if index > 0 && limits.is_some_and(|limits| magnitude > limits[kind]) {
-        let count = limits.map_or(0, |limits| limits[kind]);
-        Err(format!("{one} {index} does not exist: the number of {many} in the file is {count}"))
-    } else {
-        if index > 0 {
-            survey.highest[kind] = survey.highest[kind].max(magnitude);
-        }
-        Ok(())
-    }
 }
 
 fn shown(word: &[u8]) -> String {
