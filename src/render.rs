@@ -371,8 +371,8 @@ impl Meter {
     }
 }
 
-/// Runs `work` in a pool of its own. A panic in any of its threads becomes an error.
-fn in_pool<T: Send>(settings: &Settings, work: impl FnOnce() -> Result<T> + Send) -> Result<T> {
+/// Runs `work` in a pool of its own, of as many threads as `settings` say. A panic in any of them becomes an error.
+pub fn in_pool<T: Send>(settings: &Settings, work: impl FnOnce() -> Result<T> + Send) -> Result<T> {
     let threads = settings.thread_count();
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)

@@ -8,7 +8,7 @@ use super::{describe, findings, interrupt};
 use crate::error::Error;
 use crate::output;
 use crate::picture::Destination;
-use crate::render::{Rendered, render};
+use crate::render::{Rendered, in_pool, render};
 use crate::scene;
 use crate::world::World;
 use std::time::{Duration, Instant};
@@ -20,15 +20,15 @@ pub(super) fn run(job: &Job) -> anyhow::Result<u8> {
     let destination = Destination::new(&job.image)?;
     interrupt::listen(destination.partial_path().to_path_buf())?;
 
-    let (scene, load) = timed(|| scene::load(&job.scene));
+    let (scene, load) = timed(|| in_pool(&job.settings, || scene::load(&job.scene)));
     let scene = scene?;
     if !job.quiet {
         scene.warnings.iter().for_each(say);
         say(describe::scene(&scene.desc));
     }
-    let (world, compile) = timed(|| World::compile(&scene.desc));
+    let (world, compile) = timed(|| in_pool(&job.settings, || World::compile(&scene.desc)));
     let world = world?;
-    let guards = world.guards(&scene.desc, job.settings.width)?;
+    let guards = in_pool(&job.settings, || world.guards(&scene.desc, job.settings.width))?;
     if !job.quiet {
         guards.iter().for_each(say);
     }
