@@ -122,7 +122,7 @@ impl Geometry {
 
     /// The hit of a solid with t in (0, t_max]. The shared routine of every accelerator.
     pub fn intersect_solid(&self, solid: u32, ray: &Ray, t_max: f64) -> Option<Hit> {
-        let Solid { object, shape } = self.solids[solid as usize];
+        let &Solid { object, ref shape } = &self.solids[solid as usize];
         let primitive = PrimitiveId::solid(solid);
         let leaves = ray.leaving == primitive;
         let hit = |t, part, u, v| Hit { t, object, primitive, part, u, v };
@@ -169,7 +169,7 @@ impl Geometry {
     /// The hit of the local ray `ray` as a hit of the path's ray: distance in world units from the start of that one.
     pub fn world_hit(&self, ray: &LocalRay, hit: &TriangleHit) -> Hit {
         let (object, part) = self.triangle_owner(hit.index);
-        let t = (ray.shift + hit.t / self.mesh_frame.scale).max(f64::MIN_POSITIVE);
+        let t = (ray.shift + hit.t * self.mesh_frame.inverse_scale).max(f64::MIN_POSITIVE);
         Hit { t, object, primitive: PrimitiveId::triangle(hit.index), part, u: hit.u, v: hit.v }
     }
 }

@@ -1,6 +1,6 @@
 //! The point where a ray arrives, and rays that leave it.
 
-use super::{Geometry, Hit, PrimitiveId, Ray, Shape, Solid};
+use super::{Geometry, Hit, PrimitiveId, Ray, Shape};
 use crate::math::{DVec3, EPSILON};
 
 /// A point of a surface, in world space.
@@ -22,6 +22,7 @@ pub struct SurfacePoint {
 impl SurfacePoint {
     /// A ray that leaves in the unit direction `direction`. Its origin is moved by the error bound along the normal
     /// (Pharr, Jakob, Humphreys, "Physically Based Rendering" 4th ed., 6.8.6), here in f64.
+    #[inline]
     pub fn leave(&self, direction: DVec3) -> Ray {
         let outward = direction.dot(self.normal) > 0.0;
         let side = if outward { self.normal } else { -self.normal };
@@ -36,6 +37,7 @@ impl SurfacePoint {
 
     /// The ray to another surface's point, and its length; `None` if the two are so near that their error bounds hide
     /// the direction. Both ends are moved off their surfaces.
+    #[inline]
     pub fn leave_to(&self, target: &SurfacePoint) -> Option<(Ray, f64)> {
         let toward = target.position - self.position;
         let side_here = if toward.dot(self.normal) > 0.0 { self.normal } else { -self.normal };
@@ -46,7 +48,7 @@ impl SurfacePoint {
         if !(way.dot(toward) > 0.0 && length.is_finite()) {
             return None;
         }
-        let direction = way / length;
+        let direction = way * length.recip();
         let ray = Ray {
             origin,
             direction,
@@ -57,6 +59,7 @@ impl SurfacePoint {
         Some((ray, length))
     }
 
+    #[inline]
     fn beside(&self, side: DVec3) -> DVec3 {
         self.position + side * self.error.dot(side.abs())
     }
@@ -67,6 +70,7 @@ const ROUNDINGS: f64 = 16.0 * EPSILON;
 
 impl Geometry {
     /// The point of a hit of `ray`.
+    #[inline]
     pub fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
         if let Some(solid) = hit.primitive.as_solid() {
             return self.solid_surface(solid, ray, hit);
@@ -75,8 +79,9 @@ impl Geometry {
         self.triangle_point(index, hit.u, hit.v)
     }
 
+    #[inline]
     fn solid_surface(&self, solid: u32, ray: &Ray, hit: &Hit) -> SurfacePoint {
-        let Solid { shape, .. } = self.solids[solid as usize];
+        let shape = &self.solids[solid as usize].shape;
         let (origin, direction) = (ray.origin, ray.direction);
         let (center, offset, normal) = match shape {
             Shape::Ball(ball) => {
@@ -95,12 +100,14 @@ impl Geometry {
     }
 
     /// The point of a solid at `offset` from its centre.
+    #[inline]
     pub fn solid_point(&self, solid: u32, center: DVec3, offset: DVec3, normal: DVec3) -> SurfacePoint {
         // Of a turned body every component of the offset takes part in every other.
-        let size = match self.solids[solid as usize].shape {
+        let shape = &self.solids[solid as usize].shape;
+        let size = match shape {
             Shape::Ball(ball) => ball.radius,
             Shape::Cuboid(cuboid) => cuboid.half.length(),
-            Shape::Rectangle(rectangle) => rectangle.edge_u.length() + rectangle.edge_v.length(),
+            Shape::Rectangle(rectangle) => rectangle.reach,
         };
         let position = center + offset;
         SurfacePoint {
@@ -108,11 +115,12 @@ impl Geometry {
             normal,
             error: (center.abs() + size) * ROUNDINGS,
             primitive: PrimitiveId::solid(solid),
-            closed: !matches!(self.solids[solid as usize].shape, Shape::Rectangle(_)),
+            closed: !matches!(shape, Shape::Rectangle(_)),
         }
     }
 
     /// The point of a triangle with these weights of its second and third corner.
+    #[inline]
     pub fn triangle_point(&self, triangle: u32, u: f64, v: f64) -> SurfacePoint {
         let [a, b, c] = self.corners(triangle);
         let (ab, ac) = (b - a, c - a);
@@ -122,7 +130,7 @@ impl Geometry {
             position: self.mesh_frame.to_world(local),
             // Edges of f32 numbers in [2^-149, 2]: their products do not underflow in f64.
             normal: ab.cross(ac).normalize(),
-            error: (self.mesh_frame.pivot.abs() + size / self.mesh_frame.scale) * ROUNDINGS,
+            error: (self.mesh_frame.pivot.abs() + size * self.mesh_frame.inverse_scale) * ROUNDINGS,
             primitive: PrimitiveId::triangle(triangle),
             closed: false,
         }

@@ -14,6 +14,7 @@ pub(super) struct ShadingNormals {
 
 impl ShadingNormals {
     /// The unit normal at a hit; `None` where the surface is flat.
+    #[inline]
     pub(super) fn at(&self, hit: &Hit) -> Option<DVec3> {
         if self.indices.is_empty() {
             return None;
