@@ -3,6 +3,8 @@
 //! Shading and shapes compute in f64; only the triangle meshes and the nodes of the accelerators are f32.
 //! Transcendental functions come from `libm`, so that equal inputs give equal bits on every machine.
 
+pub mod elementary;
+
 pub use glam::{DMat3, DVec3, Vec3};
 
 /// A linear RGB radiance, reflectance or weight, in the components x, y, z.
@@ -32,6 +34,7 @@ pub struct Frame {
 
 impl Frame {
     /// The basis around the unit vector `z` (Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1) 2017).
+    #[inline]
     pub fn around(z: DVec3) -> Frame {
         let sign = 1f64.copysign(z.z);
         let a = -1.0 / (sign + z.z);
@@ -42,6 +45,7 @@ impl Frame {
     }
 
     /// From coordinates in this basis to the world.
+    #[inline]
     pub fn to_world(&self, v: DVec3) -> DVec3 {
         self.x * v.x + self.y * v.y + self.z * v.z
     }

@@ -2,6 +2,7 @@
 //! binned, and what the density puts into each bin is estimated by uniform directions, rays and `pdf_surface`.
 
 use crate::support::build::*;
+use crate::support::random::Sample4;
 use crate::support::stats::{SIGNIFICANCE, chi_square_tail, sidak};
 use pathtracer::accel::Accelerator;
 use pathtracer::accel::brute_force::BruteForce;

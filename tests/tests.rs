@@ -25,6 +25,9 @@ mod embree;
 #[cfg(feature = "embree")]
 mod embree_agreement;
 
+/// Sines, angles and roots of inner loops.
+mod elementary;
+
 /// Every lobe against its density, its colour, its limits.
 mod material;
 /// The samplers and the warps.

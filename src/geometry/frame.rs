@@ -11,10 +11,13 @@ pub struct LocalFrame {
     pub pivot: DVec3,
     /// Local length of one world unit, a power of two.
     pub scale: f64,
+    /// One over `scale`, exact.
+    pub(super) inverse_scale: f64,
     /// Local box around what is in it.
     pub bounds: Bounds,
     center: DVec3,
     radius: f64,
+    world_radius: f64,
 }
 
 /// A ray in local space, as every accelerator sees it: in f64 for the decision, rounded to f32 for what only finds
@@ -54,7 +57,8 @@ impl LocalRay {
     /// let no ray through.
     #[inline(always)]
     pub(super) fn edges(&self, corners: [DVec3; 3]) -> [f64; 3] {
-        let [a, b, c] = corners.map(|corner| self.shear.project(corner - self.origin64));
+        let seen = |corner: DVec3| self.shear.project(corner - self.origin64);
+        let (a, b, c) = (seen(corners[0]), seen(corners[1]), seen(corners[2]));
         [signed_area(b, c), signed_area(c, a), signed_area(a, b)]
     }
 
@@ -86,7 +90,9 @@ impl LocalFrame {
         let scale = libm::ldexp(1.0, -exponent);
         let bounds = Bounds { min: (world.min - pivot) * scale, max: (world.max - pivot) * scale };
         let radius = ((bounds.max - bounds.min) * 0.5).length();
-        LocalFrame { pivot, scale, bounds, center: bounds.center(), radius }
+        let inverse_scale = libm::ldexp(1.0, exponent);
+        let (center, world_radius) = (bounds.center(), radius * inverse_scale);
+        LocalFrame { pivot, scale, inverse_scale, bounds, center, radius, world_radius }
     }
 
     /// The frame for what is within `bounds`, which may be empty, with the origin at `pivot`.
@@ -104,7 +110,7 @@ impl LocalFrame {
 
     /// From local to world, in f64.
     pub fn to_world(&self, p: DVec3) -> DVec3 {
-        p / self.scale + self.pivot
+        p * self.inverse_scale + self.pivot
     }
 
     /// The farthest from the local origin that a local ray starts, or a primitive lies.
@@ -122,7 +128,7 @@ impl LocalFrame {
     /// A distance a little longer than `t_max`: a hit at exactly `t_max` stays in reach through the roundings between
     /// the two spaces.
     pub fn widen(&self, t_max: f64) -> f64 {
-        (t_max + self.radius / self.scale) * (1.0 + ROUNDING_SLACK) - self.radius / self.scale
+        (t_max + self.world_radius) * (1.0 + ROUNDING_SLACK) - self.world_radius
     }
 
     /// The ray in local space, for hits up to the world distance `t_max`; `None` if it misses everything in here.
@@ -138,7 +144,7 @@ impl LocalFrame {
         if offset.length_squared() > near * near {
             let advance = enter_sphere(offset, ray.direction, self.radius * 1.01)?;
             origin += ray.direction * advance;
-            shift = advance / self.scale;
+            shift = advance * self.inverse_scale;
             // From so far away that the sphere drowns in the rounding, nothing can be told apart.
             let arrived = (origin - self.center).length_squared() <= near * near;
             if !arrived {

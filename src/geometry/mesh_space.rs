@@ -114,12 +114,14 @@ impl MeshSpace {
     }
 
     /// The distance of a hit in outer units, from the start of the ray that `ray` was made from.
+    #[inline]
     pub(super) fn outer_distance(&self, ray: &LocalRay, hit: &TriangleHit) -> f64 {
-        ray.shift + hit.t / self.frame.scale
+        ray.shift + hit.t * self.frame.inverse_scale
     }
 
     /// The point of a triangle with these weights of its second and third corner, in outer coordinates; it belongs to
     /// no primitive yet.
+    #[inline]
     pub(super) fn point(&self, triangle: u32, u: f64, v: f64) -> SurfacePoint {
         let [a, b, c] = self.corners(triangle);
         let (ab, ac) = (b - a, c - a);
@@ -127,7 +129,7 @@ impl MeshSpace {
         let size = a.abs() + ab.abs() + ac.abs();
         // Edges of f32 numbers in [2^-149, 2]: their products do not underflow in f64.
         let normal = ab.cross(ac).normalize();
-        let error = (self.frame.pivot.abs() + size / self.frame.scale) * ROUNDINGS;
+        let error = (self.frame.pivot.abs() + size * self.frame.inverse_scale) * ROUNDINGS;
         SurfacePoint::of_sheet(self.frame.to_world(local), normal, error)
     }
 

@@ -16,6 +16,8 @@ pub struct Rectangle {
     pub normal: DVec3,
     /// Lower left, lower right, upper right, upper left.
     corners: [DVec3; 4],
+    /// Sum of the edges' lengths.
+    pub(super) reach: f64,
 }
 
 /// Distance, triangle (0 or 1) and coordinates in [0, 1].
@@ -33,7 +35,8 @@ impl Rectangle {
         ];
         // Normalised first: the lengths may be as small as the square root of the smallest number.
         let normal = half_u.normalize().cross(half_v.normalize()).normalize();
-        Rectangle { center, edge_u: half_u * 2.0, edge_v: half_v * 2.0, normal, corners }
+        let (edge_u, edge_v) = (half_u * 2.0, half_v * 2.0);
+        Rectangle { center, edge_u, edge_v, normal, corners, reach: edge_u.length() + edge_v.length() }
     }
 
     /// Where the line meets the rectangle, up to `t_max`. It is decided as for the triangles of meshes, by exact signs of
@@ -48,7 +51,8 @@ impl Rectangle {
             return None;
         }
         let shear = Shear::onto_largest_axis(direction);
-        let [a, b, c, d] = self.corners.map(|corner| shear.project(corner - origin));
+        let seen = |corner: usize| shear.project(self.corners[corner] - origin);
+        let (a, b, c, d) = (seen(0), seen(1), seen(2), seen(3));
         let (ab, bc, cd, da) = (signed_area(a, b), signed_area(b, c), signed_area(c, d), signed_area(d, a));
         let ca = signed_area(c, a);
         let part = if same_sign(ab, bc, ca) {

@@ -125,7 +125,7 @@ impl Geometry {
     /// The hit of a solid with t in (0, t_max]. The shared routine of every accelerator; none of an instance, which only an
     /// accelerator can look into ([`crate::accel`]).
     pub fn intersect_solid(&self, solid: u32, ray: &Ray, t_max: f64) -> Option<Hit> {
-        let Solid { object, shape } = self.solids[solid as usize];
+        let &Solid { object, ref shape } = &self.solids[solid as usize];
         let primitive = PrimitiveId::solid(solid);
         let leaves = ray.leaving == primitive;
         let hit = |t, part, u, v| Hit { t, object, primitive, part, u, v };

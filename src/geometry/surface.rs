@@ -1,6 +1,6 @@
 //! The point where a ray arrives, and rays that leave it.
 
-use super::{Geometry, Hit, PrimitiveId, Ray, Shape, Solid};
+use super::{Geometry, Hit, PrimitiveId, Ray, Shape};
 use crate::math::{DVec3, EPSILON};
 
 /// A point of a surface, in world space.
@@ -27,6 +27,7 @@ impl SurfacePoint {
 
     /// A ray that leaves in the unit direction `direction`. Its origin is moved by the error bound along the normal
     /// (Pharr, Jakob, Humphreys, "Physically Based Rendering" 4th ed., 6.8.6), here in f64.
+    #[inline]
     pub fn leave(&self, direction: DVec3) -> Ray {
         let outward = direction.dot(self.normal) > 0.0;
         let side = if outward { self.normal } else { -self.normal };
@@ -41,6 +42,7 @@ impl SurfacePoint {
 
     /// The ray to another surface's point, and its length; `None` if the two are so near that their error bounds hide
     /// the direction. Both ends are moved off their surfaces.
+    #[inline]
     pub fn leave_to(&self, target: &SurfacePoint) -> Option<(Ray, f64)> {
         let toward = target.position - self.position;
         let side_here = if toward.dot(self.normal) > 0.0 { self.normal } else { -self.normal };
@@ -51,7 +53,7 @@ impl SurfacePoint {
         if !(way.dot(toward) > 0.0 && length.is_finite()) {
             return None;
         }
-        let direction = way / length;
+        let direction = way * length.recip();
         let ray = Ray {
             origin,
             direction,
@@ -62,6 +64,7 @@ impl SurfacePoint {
         Some((ray, length))
     }
 
+    #[inline]
     fn beside(&self, side: DVec3) -> DVec3 {
         self.position + side * self.error.dot(side.abs())
     }
@@ -72,6 +75,7 @@ pub(super) const ROUNDINGS: f64 = 16.0 * EPSILON;
 
 impl Geometry {
     /// The point of a hit of `ray`.
+    #[inline]
     pub fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
         match hit.primitive.as_solid() {
             Some(solid) => self.solid_surface(solid, ray, hit),
@@ -79,8 +83,9 @@ impl Geometry {
         }
     }
 
+    #[inline]
     fn solid_surface(&self, solid: u32, ray: &Ray, hit: &Hit) -> SurfacePoint {
-        let Solid { shape, .. } = self.solids[solid as usize];
+        let shape = &self.solids[solid as usize].shape;
         let (origin, direction) = (ray.origin, ray.direction);
         let (center, offset, normal) = match shape {
             Shape::Ball(ball) => {
@@ -100,12 +105,14 @@ impl Geometry {
     }
 
     /// The point of a solid at `offset` from its centre.
+    #[inline]
     pub fn solid_point(&self, solid: u32, center: DVec3, offset: DVec3, normal: DVec3) -> SurfacePoint {
         // Of a turned body every component of the offset takes part in every other.
-        let size = match self.solids[solid as usize].shape {
+        let shape = &self.solids[solid as usize].shape;
+        let size = match shape {
             Shape::Ball(ball) => ball.radius,
             Shape::Cuboid(cuboid) => cuboid.half.length(),
-            Shape::Rectangle(rectangle) => rectangle.edge_u.length() + rectangle.edge_v.length(),
+            Shape::Rectangle(rectangle) => rectangle.reach,
             Shape::Instance(_) => offset.length(),
         };
         let position = center + offset;
@@ -114,15 +121,16 @@ impl Geometry {
             normal,
             error: (center.abs() + size) * ROUNDINGS,
             primitive: PrimitiveId::solid(solid),
-            closed: matches!(self.solids[solid as usize].shape, Shape::Ball(_) | Shape::Cuboid(_)),
+            closed: matches!(shape, Shape::Ball(_) | Shape::Cuboid(_)),
         }
     }
 
     /// The point of a triangle, of an instance or not, with these weights of its second and third corner.
+    #[inline]
     pub fn triangle_point(&self, primitive: PrimitiveId, u: f64, v: f64) -> SurfacePoint {
         let triangle = primitive.as_triangle().unwrap_or_default();
-        let point = match primitive.as_solid().map(|solid| self.solids[solid as usize].shape) {
-            Some(Shape::Instance(instance)) => instance.point(self.space_of(&instance), triangle, u, v),
+        let point = match primitive.as_solid().map(|solid| &self.solids[solid as usize].shape) {
+            Some(Shape::Instance(instance)) => instance.point(self.space_of(instance), triangle, u, v),
             _ => self.spaces[primitive.space().unwrap_or_default() as usize].point(triangle, u, v),
         };
         SurfacePoint { primitive, ..point }

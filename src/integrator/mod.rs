@@ -1,6 +1,7 @@
 //! How much light arrives?
 
 mod counters;
+mod numbers;
 mod path;
 
 pub use counters::{Counters, FixedSum};

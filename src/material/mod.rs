@@ -77,6 +77,22 @@ impl Material {
         })
     }
 
+    /// Whether the first number of [`Material::sample`] matters.
+    #[inline]
+    pub fn has_choice(&self) -> bool {
+        matches!(self, Material::ClearCoat(_) | Material::Refractive(_))
+    }
+
+    /// Whether the other two numbers of [`Material::sample`] matter.
+    #[inline]
+    pub fn is_spread(&self) -> bool {
+        match self {
+            Material::Diffuse(_) | Material::ClearCoat(_) => true,
+            Material::Reflective(reflective) => reflective.specularity < 1.0,
+            Material::Refractive(_) => false,
+        }
+    }
+
     /// (f cos, density) for light from `wi`, of the parts that are no delta. Both are zero for directions that
     /// these parts can't produce.
     #[inline]

@@ -1,6 +1,6 @@
 //! Independent uniform numbers by a counter-based hash.
 
-use super::{GOLDEN, PixelSeed, Sampler, mix, stream};
+use super::{GOLDEN, NumberSet, PixelSeed, Sampler, mix, stream};
 
 /// Plain Monte Carlo: every number is the hash of its place, unrelated to all others.
 #[derive(Clone, Copy, Debug)]
@@ -8,7 +8,16 @@ pub struct Independent {
     mixed_seed: u64,
 }
 
+/// A place in the stream of a sample.
+#[derive(Clone, Copy, Debug)]
+pub struct IndependentSet {
+    state: u64,
+    first: u64,
+}
+
 impl Sampler for Independent {
+    type Set = IndependentSet;
+
     fn new(seed: u64) -> Self {
         Independent { mixed_seed: mix(seed.wrapping_add(GOLDEN)) }
     }
@@ -18,11 +27,22 @@ impl Sampler for Independent {
     }
 
     #[inline]
-    fn sample4(&self, pixel: PixelSeed, index: u64, set: u32) -> [f64; 4] {
+    fn set(&self, pixel: PixelSeed, index: u64, set: u32) -> IndependentSet {
         // Each sample has its own stream, in which the sets follow each other.
-        let state = stream(pixel.0, index);
-        let first = 4 * u64::from(set) + 1;
-        std::array::from_fn(|i| unit(stream(state, first + i as u64)))
+        IndependentSet { state: stream(pixel.0, index), first: u64::from(set) << 32 | 1 }
+    }
+}
+
+impl NumberSet for IndependentSet {
+    #[inline]
+    fn pair(&self, usage: u32) -> [f64; 2] {
+        let first = self.first + 2 * u64::from(usage);
+        [unit(stream(self.state, first)), unit(stream(self.state, first + 1))]
+    }
+
+    #[inline]
+    fn one(&self, usage: u32) -> f64 {
+        unit(stream(self.state, self.first + 2 * u64::from(usage)))
     }
 }
 

@@ -4,25 +4,41 @@ mod independent;
 mod sobol;
 pub mod warp;
 
-pub use independent::Independent;
-pub use sobol::Sobol;
+pub use independent::{Independent, IndependentSet};
+pub use sobol::{Sobol, SobolSet};
 
 use crate::error::Error;
 use std::fmt;
 use std::str::FromStr;
 
-/// A source of points in the open unit hypercube of four dimensions. It holds no state but the seed: equal
-/// arguments give equal numbers on every machine, in every order, on every thread.
+/// A source of random numbers. It holds no state but the seed: equal arguments give equal numbers on every machine, in
+/// every order, on every thread.
 pub trait Sampler: Copy + Send + Sync {
+    /// What [`Sampler::set`] returns.
+    type Set: NumberSet;
+
     /// The sampler of a seed. Different seeds give unrelated numbers.
     fn new(seed: u64) -> Self;
 
     /// The part of the hash that samples of one pixel share, to be computed once a pixel.
     fn pixel(&self, x: u32, y: u32) -> PixelSeed;
 
-    /// Four numbers, each strictly between 0 and 1, for the dimension set `set` of sample `index` of a pixel.
-    /// Sets are unrelated to each other; so are pixels.
-    fn sample4(&self, pixel: PixelSeed, index: u64, set: u32) -> [f64; 4];
+    /// The numbers of sample `index` of a pixel for one step of its path. Sets are unrelated to each other; so are
+    /// pixels.
+    fn set(&self, pixel: PixelSeed, index: u64, set: u32) -> Self::Set;
+}
+
+/// Numbers strictly between 0 and 1 for the uses of one set, made when they are asked for: a use that a path does not
+/// need costs nothing. Uses are numbered from 0.
+///
+/// Each use is even by itself, but over the samples of a pixel the uses of a set may be functions of each other: their
+/// results may be added, not multiplied.
+pub trait NumberSet: Copy {
+    /// Two numbers, for a use of two dimensions.
+    fn pair(&self, usage: u32) -> [f64; 2];
+
+    /// One number; the first of [`NumberSet::pair`].
+    fn one(&self, usage: u32) -> f64;
 }
 
 /// A seed and the coordinates of a pixel, mixed to 64 bits; for one seed no two pixels share it.

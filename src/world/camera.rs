@@ -21,8 +21,8 @@ pub struct Camera {
     focus_distance: f64,
     /// Half of the picture's width and height at distance 1.
     half_view: [f64; 2],
-    /// Width and height in pixels.
-    size: [f64; 2],
+    /// Width and height of a pixel at distance 1.
+    pixel: [f64; 2],
 }
 
 impl Camera {
@@ -41,7 +41,7 @@ impl Camera {
                 strength * (2.0 * desc.focus_distance * half_width) / 1920.0
             }
         };
-        let size = [f64::from(width), f64::from(height)];
+        let half_height = half_width * (f64::from(height) / f64::from(width));
         Camera {
             position: desc.position - origin,
             forward,
@@ -49,21 +49,22 @@ impl Camera {
             up: forward.cross(left),
             lens_radius,
             focus_distance: desc.focus_distance,
-            half_view: [half_width, half_width * (size[1] / size[0])],
-            size,
+            half_view: [half_width, half_height],
+            pixel: [2.0 * half_width / f64::from(width), 2.0 * half_height / f64::from(height)],
         }
     }
 
     /// The ray through the picture's point (x, y), in pixels from the top left corner, and the lens' point that `lens`
-    /// in [0, 1)^2 selects.
-    pub fn ray(&self, x: f64, y: f64, lens: [f64; 2]) -> Ray {
-        let across = (2.0 * x / self.size[0] - 1.0) * self.half_view[0];
-        let upwards = (1.0 - 2.0 * y / self.size[1]) * self.half_view[1];
+    /// selects, two numbers in [0, 1); not asked by a pinhole.
+    #[inline]
+    pub fn ray(&self, x: f64, y: f64, lens: impl FnOnce() -> [f64; 2]) -> Ray {
+        let across = x * self.pixel[0] - self.half_view[0];
+        let upwards = self.half_view[1] - y * self.pixel[1];
         let toward = self.forward + self.right * across + self.up * upwards;
         if self.lens_radius == 0.0 {
             return Ray::new(self.position, toward.normalize());
         }
-        let [a, b] = square_to_disk(lens);
+        let [a, b] = square_to_disk(lens());
         let offset = (self.right * a + self.up * b) * self.lens_radius;
         Ray::new(self.position + offset, (toward * self.focus_distance - offset).normalize())
     }

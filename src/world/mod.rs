@@ -19,11 +19,11 @@ pub use camera::Camera;
 pub use requires::Requires;
 pub use sky::{Sky, SkyKind};
 
-use crate::geometry::{Geometry, Hit, Ray, SurfacePoint};
+use crate::geometry::{Geometry, Hit, Ray};
 use crate::material::Material;
 use crate::math::{DVec3, Rgb};
 use crate::scene::desc::CameraDesc;
-use light::Lights;
+use light::{Lights, Receiver};
 use shading::ShadingNormals;
 
 /// A scene, ready to be rendered.
@@ -50,10 +50,8 @@ pub struct World {
 /// Where a path meets a surface.
 #[derive(Clone, Copy, Debug)]
 pub struct Interaction {
-    /// The point with its geometric normal.
-    pub point: SurfacePoint,
-    /// The geometric normal on the side that the ray came from.
-    pub side: DVec3,
+    /// The point, with the geometric normal on the side that the ray came from.
+    pub receiver: Receiver,
     /// The normal that materials see, on the side that the ray came from.
     pub normal: DVec3,
     /// Whether the ray came from the outer side.
@@ -77,6 +75,7 @@ impl World {
     }
 
     /// The surface where a ray arrives.
+    #[inline]
     pub fn interaction(&self, ray: &Ray, hit: &Hit) -> Interaction {
         let point = self.geometry.surface(ray, hit);
         let entering = ray.direction.dot(point.normal) < 0.0;
@@ -86,6 +85,6 @@ impl World {
             // A normal that faces away from the viewer says nothing about what is seen.
             if normal.dot(ray.direction) < 0.0 { normal } else { side }
         });
-        Interaction { point, side, normal, entering }
+        Interaction { receiver: Receiver { point, side }, normal, entering }
     }
 }

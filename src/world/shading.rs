@@ -75,6 +75,7 @@ impl ShadingNormals {
     }
 
     /// The unit normal at a hit, on the side of the file's normals; `None` where the surface is flat.
+    #[inline]
     pub(super) fn at(&self, hit: &Hit) -> Option<DVec3> {
         let Turned { mesh, rotation } = self.of_object.get(hit.object as usize)?.as_ref()?;
         let mesh = &self.meshes[*mesh as usize];

@@ -1,5 +1,6 @@
 //! The gradient sky: its radiance, and how to choose a direction towards it.
 
+use crate::math::elementary::{inverse_fifth_root, sin_cos_turns};
 use crate::math::{DVec3, Rgb, luminance};
 use crate::scene::desc::EnvironmentDesc;
 
@@ -24,6 +25,8 @@ pub struct Sky {
     ground: Rgb,
     /// Cumulative probability at the borders of equal steps of z from -1 to 1; empty unless a gradient.
     cumulative: Vec<f64>,
+    /// The step in which each of [`STEPS`] equal parts of the cumulative probability begins.
+    guide: Vec<u16>,
 }
 
 /// Steps of z in the table.
@@ -40,9 +43,10 @@ impl Sky {
         } else {
             SkyKind::Gradient
         };
-        let mut result = Sky { kind, sky, horizon, ground, cumulative: Vec::new() };
+        let mut result = Sky { kind, sky, horizon, ground, cumulative: Vec::new(), guide: Vec::new() };
         if kind == SkyKind::Gradient {
             result.cumulative = result.tabulate();
+            result.guide = (0..STEPS).map(|part| result.step_of(part as f64 / STEPS as f64) as u16).collect();
         }
         result
     }
@@ -53,6 +57,7 @@ impl Sky {
     }
 
     /// Radiance from the unit direction `d`.
+    #[inline]
     pub fn radiance(&self, d: DVec3) -> Rgb {
         match self.kind {
             SkyKind::Black => Rgb::ZERO,
@@ -62,19 +67,28 @@ impl Sky {
     }
 
     fn gradient(&self, z: f64) -> Rgb {
-        let (end, exponent) = if z >= 0.0 { (self.sky, 0.8) } else { (self.ground, 0.1) };
-        self.horizon + (end - self.horizon) * libm::pow(z.abs().clamp(0.0, 1.0), exponent)
+        let height = z.abs().min(1.0);
+        let (end, share) =
+            if z >= 0.0 { (self.sky, power_4_5(height)) } else { (self.ground, power_1_10(height)) };
+        self.horizon + (end - self.horizon) * share
     }
 
     /// A unit direction towards the sky with its density per solid angle, from `u` in [0, 1)^2. Only for gradients.
     pub fn sample(&self, u: [f64; 2]) -> (DVec3, f64) {
-        let step = self.cumulative.partition_point(|&c| c <= u[0]).clamp(1, STEPS) - 1;
+        let mut step = usize::from(self.guide[(u[0] * STEPS as f64) as usize]);
+        while step + 1 < STEPS && self.cumulative[step + 1] <= u[0] {
+            step += 1;
+        }
         let share = self.cumulative[step + 1] - self.cumulative[step];
         let z = height(step as f64 + ((u[0] - self.cumulative[step]) / share).clamp(0.0, 1.0));
         let across = ((1.0 - z) * (1.0 + z)).max(0.0).sqrt();
-        let azimuth = std::f64::consts::TAU * u[1];
-        let d = DVec3::new(across * libm::cos(azimuth), across * libm::sin(azimuth), z);
-        (d, density(share))
+        let (sin, cos) = sin_cos_turns(u[1]);
+        (DVec3::new(across * cos, across * sin, z), density(share))
+    }
+
+    /// The step that holds a cumulative probability.
+    fn step_of(&self, probability: f64) -> usize {
+        self.cumulative.partition_point(|&c| c <= probability).clamp(1, STEPS) - 1
     }
 
     /// Density per solid angle with which [`Sky::sample`] chooses `d`; zero unless a gradient.
@@ -102,6 +116,21 @@ impl Sky {
         }
         cumulative
     }
+}
+
+/// x^0.8 for x in [0, 1].
+fn power_4_5(x: f64) -> f64 {
+    if x < f64::MIN_POSITIVE { 0.0 } else { x * inverse_fifth_root(x) }
+}
+
+/// x^0.1 for x in [0, 1].
+fn power_1_10(x: f64) -> f64 {
+    if x < f64::MIN_POSITIVE {
+        return 0.0;
+    }
+    let root = x.sqrt();
+    let y = inverse_fifth_root(root);
+    root * (y * y) * (y * y)
 }
 
 /// z at a border of a step.

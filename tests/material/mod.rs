@@ -7,6 +7,7 @@ mod fresnel;
 mod lobe_grid;
 mod refractive;
 
+use crate::support::random::Sample4;
 use pathtracer::material::{ClearCoat, Diffuse, Material, Reflective, Refractive};
 use pathtracer::math::{DVec3, Frame, Rgb};
 use pathtracer::sampling::{Independent, Sampler};

@@ -4,7 +4,8 @@ mod independent;
 mod sobol;
 mod warp;
 
-use pathtracer::sampling::{PixelSeed, Sampler, SamplerKind};
+use crate::support::random::Sample4;
+use pathtracer::sampling::{Independent, NumberSet, PixelSeed, Sampler, SamplerKind, Sobol};
 
 /// The p-value of pairs of numbers against the uniform distribution on the unit square, 32 x 32 cells.
 fn pairs_uniform(pairs: impl Iterator<Item = (f64, f64)>) -> f64 {
@@ -67,4 +68,19 @@ fn names_are_read_back() {
 fn an_unknown_name_is_refused_with_the_known_ones() {
     let message = "halton".parse::<SamplerKind>().unwrap_err().to_string();
     assert_eq!(message, "unknown sampler `halton`: expected `sobol` or `independent`");
+}
+
+#[test]
+fn one_number_is_the_first_of_a_pair() {
+    fn check<S: Sampler>() {
+        let sampler = S::new(3);
+        for (index, pixel) in (0..).zip(pixels(&sampler, 8)) {
+            let numbers = sampler.set(pixel, index, 5);
+            for usage in 0..8 {
+                assert_eq!(numbers.one(usage), numbers.pair(usage)[0]);
+            }
+        }
+    }
+    check::<Independent>();
+    check::<Sobol>();
 }

@@ -1,4 +1,5 @@
 use super::{p_values_of_neighbours, pairs_uniform, pixels, uniform};
+use crate::support::random::Sample4;
 use crate::support::stats::{Moments, SIGNIFICANCE, chi_square_uniform, sidak};
 use pathtracer::sampling::{Sampler, Sobol};
 
@@ -32,11 +33,11 @@ fn numbers_depend_on_nothing_but_the_arguments() {
     let sampler = Sobol::new(42);
     assert_eq!(
         sampler.sample4(sampler.pixel(3, 5), 7, 11),
-        [0.05977492325473577, 0.5544877030188218, 0.7788694716291502, 0.724533245083876]
+        [0.05977492325473577, 0.5544877030188218, 0.851953612989746, 0.004602803732268512]
     );
     assert_eq!(
         sampler.sample4(sampler.pixel(1919, 1079), 1 << 40, 1000),
-        [0.11388765287119895, 0.0010094557655975223, 0.03710264095570892, 0.5480729473056272]
+        [0.11388765287119895, 0.0010094557655975223, 0.5445135332411155, 0.6893887975020334]
     );
 }
 
@@ -57,30 +58,14 @@ fn every_block_is_stratified_in_each_dimension() {
 }
 
 #[test]
-fn every_block_is_stratified_in_each_elementary_interval_of_the_first_two_dimensions() {
+fn every_block_is_stratified_in_each_elementary_interval_of_a_use() {
     for k in 0..=10 {
         for first in first_samples(1 << k) {
             for x in 0..8 {
                 let points = block(x, x, first, 1 << k);
                 for i in 0..=k {
                     assert!(stratified(&points, [i, k - i, 0, 0]), "2^{k} samples from {first}, 2^-{i} wide");
-                }
-            }
-        }
-    }
-}
-
-#[test]
-fn four_dimensions_form_a_net_of_quality_3() {
-    // t is the sum of the degrees of the primitive polynomials less one each: 0 + 0 + 1 + 2 (Sobol 1967).
-    let k = 10;
-    for first in first_samples(1 << k) {
-        let points = block(1, 2, first, 1 << k);
-        for a in 0..=k - 3 {
-            for b in 0..=k - 3 - a {
-                for c in 0..=k - 3 - a - b {
-                    let bits = [a, b, c, k - 3 - a - b - c];
-                    assert!(stratified(&points, bits), "from {first}: {bits:?}");
+                    assert!(stratified(&points, [0, 0, i, k - i]), "2^{k} samples from {first}, 2^-{i} wide");
                 }
             }
         }
@@ -140,7 +125,7 @@ fn sets_of_a_pixel_are_uncorrelated_over_its_samples() {
     let significance = sidak(SIGNIFICANCE, pairs.len() * 16);
     for (set, other) in pairs {
         for d in 0..16 {
-            let estimates = pixels(&sampler, 40).map(|pixel| {
+            let estimates = pixels(&sampler, 120).map(|pixel| {
                 let product = |i| {
                     let (a, b) = (sampler.sample4(pixel, i, set), sampler.sample4(pixel, i, other));
                     (a[d / 4] - 0.5) * (b[d % 4] - 0.5)

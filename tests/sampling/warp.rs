@@ -1,3 +1,4 @@
+use crate::support::random::Sample4;
 use crate::support::stats::{SIGNIFICANCE, chi_square, sidak};
 use pathtracer::math::DVec3;
 use pathtracer::sampling::{Independent, Sampler, warp};

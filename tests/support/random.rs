@@ -1,6 +1,18 @@
-//! Random numbers of the tests, independent of the library's samplers.
+//! Random numbers of the tests, independent of the library's samplers, and a short way to those.
 
 use pathtracer::math::DVec3;
+use pathtracer::sampling::{NumberSet, PixelSeed, Sampler};
+
+/// The numbers of two uses of a set.
+pub(crate) trait Sample4: Sampler {
+    fn sample4(&self, pixel: PixelSeed, index: u64, set: u32) -> [f64; 4] {
+        let numbers = self.set(pixel, index, set);
+        let ([a, b], [c, d]) = (numbers.pair(0), numbers.pair(1));
+        [a, b, c, d]
+    }
+}
+
+impl<S: Sampler> Sample4 for S {}
 
 /// SplitMix64 (Steele, Lea, Flood, "Fast Splittable Pseudorandom Number Generators", 2014).
 #[derive(Clone)]

@@ -1,7 +1,7 @@
 //! Surfaces that emit: choosing a point of one as seen from another point, and the density of that choice.
 
 use super::alias::{AliasTable, BELOW_ONE};
-use super::spherical_rectangle::SphericalRectangle;
+use super::spherical_rectangle::{Pane, SphericalRectangle};
 use crate::geometry::{Ball, Cuboid, Geometry, MeshSpace, PrimitiveId, Rectangle, Shape, SurfacePoint};
 use crate::math::{DVec3, Frame, Rgb, luminance};
 use crate::sampling::warp::{cone_pdf, square_to_cone, square_to_triangle};
@@ -37,11 +37,12 @@ enum LightShape {
     Cuboid {
         solid: u32,
         cuboid: Cuboid,
-        faces: Box<[Rectangle; 6]>,
+        faces: Box<[Face; 6]>,
     },
     Rectangle {
         solid: u32,
         rectangle: Rectangle,
+        pane: Pane,
     },
     /// Triangles of a space from `first` on, chosen by area.
     Mesh {
@@ -50,6 +51,13 @@ enum LightShape {
         area: f64,
         table: AliasTable,
     },
+}
+
+/// A face of a box that emits.
+#[derive(Clone, Copy, Debug)]
+struct Face {
+    rectangle: Rectangle,
+    pane: Pane,
 }
 
 /// A point of a light, and its density per solid angle.
@@ -64,11 +72,15 @@ impl AreaLight {
                 (LightShape::Ball { solid, ball }, area)
             }
             Shape::Cuboid(cuboid) => {
-                let faces = Box::new(std::array::from_fn(|face| cuboid.face(face as u32)));
-                let area = faces.iter().map(Rectangle::area).sum();
+                let faces: Box<[Face; 6]> =
+                    Box::new(std::array::from_fn(|face| Face::of(cuboid.face(face as u32))));
+                let area = faces.iter().map(|face| face.rectangle.area()).sum();
                 (LightShape::Cuboid { solid, cuboid, faces }, area)
             }
-            Shape::Rectangle(rectangle) => (LightShape::Rectangle { solid, rectangle }, rectangle.area()),
+            Shape::Rectangle(rectangle) => {
+                let pane = Pane::new(&rectangle);
+                (LightShape::Rectangle { solid, rectangle, pane }, rectangle.area())
+            }
             Shape::Instance(_) => return None,
         };
         let bounds = geometry.solid_bounds(solid);
@@ -113,6 +125,7 @@ impl AreaLight {
     }
 
     /// A point as seen from the receiver, from `u` in [0, 1)^2; `None` where it can't be seen, or only by chance.
+    #[inline]
     pub(super) fn sample(&self, geometry: &Geometry, at: &Receiver, u: [f64; 2]) -> Option<PointSample> {
         let p = at.point.position;
         match &self.shape {
@@ -122,11 +135,11 @@ impl AreaLight {
                 let point = geometry.solid_point(*solid, ball.center, normal * ball.radius, normal);
                 Some((point, cone_pdf(cone.one_minus_cos)))
             }
-            LightShape::Rectangle { solid, rectangle } => {
+            LightShape::Rectangle { solid, rectangle, pane } => {
                 if at.point.primitive == PrimitiveId::solid(*solid) {
                     return None;
                 }
-                let view = SphericalRectangle::new(rectangle, p);
+                let view = SphericalRectangle::new(pane, p);
                 let (s, t) = view.sample(u);
                 let offset = rectangle.offset_at(s, t);
                 let point = geometry.solid_point(*solid, rectangle.center, offset, rectangle.normal);
@@ -135,9 +148,10 @@ impl AreaLight {
             LightShape::Cuboid { solid, cuboid, faces } => {
                 let seen = VisibleFaces::new(*solid, cuboid, faces, at);
                 let (face, u0) = seen.choose(u[0])?;
-                let (s, t) = seen.views[face]?.sample([u0, u[1]]);
-                let offset = faces[face].center - cuboid.center + faces[face].offset_at(s, t);
-                let point = geometry.solid_point(*solid, cuboid.center, offset, faces[face].normal);
+                let (s, t) = seen.views[face]?.0.sample([u0, u[1]]);
+                let rectangle = &faces[face].rectangle;
+                let offset = rectangle.center - cuboid.center + rectangle.offset_at(s, t);
+                let point = geometry.solid_point(*solid, cuboid.center, offset, rectangle.normal);
                 Some((point, seen.pdf(face, point.position - p)))
             }
             LightShape::Mesh { space, first, area, table } => {
@@ -156,9 +170,7 @@ impl AreaLight {
             LightShape::Ball { solid, ball } => Cone::of(ball, p)
                 .filter(|_| at.point.primitive != PrimitiveId::solid(*solid))
                 .map_or(0.0, |cone| cone_pdf(cone.one_minus_cos)),
-            LightShape::Rectangle { rectangle, .. } => {
-                SphericalRectangle::new(rectangle, p).pdf(point.position - p)
-            }
+            LightShape::Rectangle { pane, .. } => SphericalRectangle::new(pane, p).pdf(point.position - p),
             LightShape::Cuboid { solid, cuboid, faces } => {
                 VisibleFaces::new(*solid, cuboid, faces, at).pdf(part as usize, point.position - p)
             }
@@ -171,6 +183,12 @@ fn mesh_pdf(area: f64, point: &SurfacePoint, from: DVec3) -> f64 {
     let to = point.position - from;
     let distance2 = to.length_squared();
     distance2 * distance2.sqrt() / (area * to.dot(point.normal).abs())
+}
+
+impl Face {
+    fn of(rectangle: Rectangle) -> Face {
+        Face { rectangle, pane: Pane::new(&rectangle) }
+    }
 }
 
 /// The cone of directions in which a ball is seen from outside.
@@ -215,12 +233,13 @@ impl Cone {
 
 /// The faces of a box that a receiver sees: up to three from outside, all from inside.
 struct VisibleFaces {
-    views: [Option<SphericalRectangle>; 6],
+    /// With their solid angles.
+    views: [Option<(SphericalRectangle, f64)>; 6],
     total: f64,
 }
 
 impl VisibleFaces {
-    fn new(solid: u32, cuboid: &Cuboid, faces: &[Rectangle; 6], at: &Receiver) -> VisibleFaces {
+    fn new(solid: u32, cuboid: &Cuboid, faces: &[Face; 6], at: &Receiver) -> VisibleFaces {
         let p = at.point.position;
         let own = at.point.primitive == PrimitiveId::solid(solid);
         let local = cuboid.to_local(p - cuboid.center);
@@ -234,14 +253,15 @@ impl VisibleFaces {
         if own && outside {
             return seen;
         }
-        for (face, rectangle) in faces.iter().enumerate() {
+        for (face, Face { rectangle, pane }) in faces.iter().enumerate() {
             let axis = face / 2;
             let beyond = if face % 2 == 0 { -local[axis] } else { local[axis] } > cuboid.half[axis];
             let own_face = own && rectangle.normal.dot(at.point.normal) > 0.5;
             if beyond == outside && !own_face {
-                let view = SphericalRectangle::new(rectangle, p);
-                seen.total += view.solid_angle();
-                seen.views[face] = Some(view);
+                let view = SphericalRectangle::new(pane, p);
+                let angle = view.solid_angle();
+                seen.total += angle;
+                seen.views[face] = Some((view, angle));
             }
         }
         seen
@@ -252,7 +272,7 @@ impl VisibleFaces {
         let mut rest = u * self.total;
         let mut last = None;
         for (face, view) in self.views.iter().enumerate() {
-            let angle = view.map_or(0.0, |view| view.solid_angle());
+            let angle = view.map_or(0.0, |(_, angle)| angle);
             if angle == 0.0 {
                 continue;
             }
@@ -267,6 +287,6 @@ impl VisibleFaces {
 
     fn pdf(&self, face: usize, to: DVec3) -> f64 {
         let view = self.views.get(face).copied().flatten();
-        view.map_or(0.0, |view| view.pdf(to) * (view.solid_angle() / self.total))
+        view.map_or(0.0, |(view, angle)| view.pdf(to) * (angle / self.total))
     }
 }

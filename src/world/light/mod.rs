@@ -6,7 +6,7 @@ mod spherical_rectangle;
 
 pub use alias::AliasTable;
 pub use area::Receiver;
-pub use spherical_rectangle::SphericalRectangle;
+pub use spherical_rectangle::{Pane, SphericalRectangle};
 
 use super::sky::{Sky, SkyKind};
 use crate::geometry::{Geometry, Hit, SurfacePoint};
@@ -93,7 +93,13 @@ impl Lights {
         !self.lights.is_empty() || self.sky_share > 0.0
     }
 
+    /// Whether there is more than one light to choose from, so that the first number of [`Lights::sample`] matters.
+    pub fn has_choice(&self) -> bool {
+        self.lights.len() + usize::from(self.sky_share > 0.0) > 1
+    }
+
     /// Chooses a light and a point of it, from `u` in [0, 1)^3: the first chooses the light.
+    #[inline]
     pub fn sample(&self, geometry: &Geometry, sky: &Sky, at: &Receiver, u: [f64; 3]) -> Option<LightSample> {
         let (square, select) = ([u[1], u[2]], u[0]);
         let sample = if select < self.sky_share {
@@ -127,6 +133,7 @@ impl Lights {
     }
 
     /// A light and its probability.
+    #[inline]
     fn choose(&self, at: &Receiver, u: f64) -> Option<(usize, f64)> {
         match self.lights.len() {
             0 => None,
