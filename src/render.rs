@@ -35,7 +35,7 @@ pub const MAX_SIDE: u32 = 65_536;
 pub const MAX_PIXELS: u64 = 1 << 30;
 /// The most samples per pixel.
 pub const MAX_SAMPLES: u64 = 1 << 32;
-/// The longest path, in segments. A closed white scene keeps paths for ever, and a stop is asked for between pixels' rows.
+/// The longest path, in segments. A closed white scene keeps paths for ever, and a stop is asked for between pixels.
 pub const MAX_BOUNCES: u32 = 65_536;
 /// The most threads that can be asked for.
 pub const MAX_THREADS: usize = 1024;
@@ -186,7 +186,7 @@ pub trait Watch: Sync {
     /// Called after every tile.
     fn progress(&self, progress: &Progress);
 
-    /// Whether to stop. Asked for every row of a tile; the pass that is under way is given up.
+    /// Whether to stop. Asked for every pixel; the pass that is under way is given up.
     fn cancelled(&self) -> bool;
 }
 

@@ -46,17 +46,17 @@ impl Tile<'_> {
     }
 
     /// Adds the samples of a pass to every pixel, in the order of their indices; `None` if `cancelled`, which is asked
-    /// before every row.
+    /// before every pixel: in a bright closed scene one may take a second.
     pub(super) fn sum<F>(&mut self, pass: &Pass, sample: &F, cancelled: impl Fn() -> bool) -> Option<Counters>
     where
         F: Fn(u32, u32, u64, &mut Counters) -> Rgb,
     {
         let mut counters = Counters::default();
         for (row, y) in self.rows.iter_mut().zip(self.y..) {
-            if cancelled() {
-                return None;
-            }
             for (pixel, x) in row.iter_mut().zip(self.x..) {
+                if cancelled() {
+                    return None;
+                }
                 let firefly = pass.firefly(*pixel);
                 for index in pass.samples.clone() {
                     let radiance = sample(x, y, index, &mut counters);
