@@ -16,12 +16,13 @@ const MAJORS: [u32; 2] = [4, 3];
 const PKG_CONFIG_NAMES: [&str; 3] = ["embree4", "embree3", "embree"];
 
 /// The functions that `src/lib.rs` offers.
-const FUNCTIONS: [&str; 28] = [
+const FUNCTIONS: [&str; 29] = [
     "rtcNewDevice",
     "rtcReleaseDevice",
     "rtcGetDeviceError",
     "rtcGetDeviceProperty",
     "rtcSetDeviceErrorFunction",
+    "rtcSetDeviceMemoryMonitorFunction",
     "rtcNewScene",
     "rtcReleaseScene",
     "rtcSetSceneFlags",

@@ -4,7 +4,7 @@
 //! YAML -> scene::SceneDesc -> world::World -> accel::Accelerator -> integrator -> film::Film -> picture
 //! ```
 //!
-//! A module uses only modules above it in this list; `render` and `cli` see everything.
+//! A module uses only modules above it in this list; `render`, `study` and `cli` see everything.
 #![deny(unsafe_code)]
 
 pub mod error;
@@ -31,5 +31,7 @@ pub mod integrator;
 pub mod render;
 
 pub mod output;
+
+pub mod study;
 
 pub mod cli;

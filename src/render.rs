@@ -8,6 +8,7 @@ mod memory;
 mod report;
 mod tile;
 
+pub(crate) use memory::available_bytes;
 pub use memory::film_bytes;
 
 use crate::accel::bvh::Bvh;

@@ -58,6 +58,9 @@ mod instances;
 /// What is counted about the samples: fireflies, the limit and what it takes.
 mod counters;
 
+/// Measuring the accelerators: rays, meshes, verdicts, tables, plots.
+mod study;
+
 /// The program from outside.
 mod cli;
 

@@ -41,10 +41,10 @@ pub use raw::{
     RTCRayHitN, RTCRayN, RTCScene, rtcAttachGeometry, rtcAttachGeometryByID, rtcCommitGeometry,
     rtcCommitScene, rtcGetDeviceError, rtcGetDeviceProperty, rtcGetSceneBounds, rtcNewDevice, rtcNewScene,
     rtcReleaseDevice, rtcReleaseGeometry, rtcReleaseScene, rtcSetDeviceErrorFunction,
-    rtcSetGeometryBoundsFunction, rtcSetGeometryBuildQuality, rtcSetGeometryIntersectFilterFunction,
-    rtcSetGeometryIntersectFunction, rtcSetGeometryOccludedFilterFunction, rtcSetGeometryOccludedFunction,
-    rtcSetGeometryUserData, rtcSetGeometryUserPrimitiveCount, rtcSetSceneBuildQuality, rtcSetSceneFlags,
-    rtcSetSharedGeometryBuffer,
+    rtcSetDeviceMemoryMonitorFunction, rtcSetGeometryBoundsFunction, rtcSetGeometryBuildQuality,
+    rtcSetGeometryIntersectFilterFunction, rtcSetGeometryIntersectFunction,
+    rtcSetGeometryOccludedFilterFunction, rtcSetGeometryOccludedFunction, rtcSetGeometryUserData,
+    rtcSetGeometryUserPrimitiveCount, rtcSetSceneBuildQuality, rtcSetSceneFlags, rtcSetSharedGeometryBuffer,
 };
 
 /// The id of no geometry and no primitive.

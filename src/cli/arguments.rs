@@ -1,26 +1,22 @@
 //! What was typed: the options of clap, and the cases where it needs help to say what is wrong.
 
+mod bench;
+mod compare;
+mod values;
+
+pub(super) use bench::{BenchArguments, BenchJob, Subject};
+pub(super) use compare::{CompareArguments, CompareJob};
+pub(super) use values::{ACCELS, ISAS, PRECISIONS, name_of};
+
 use crate::accel::{Isa, Precision};
 use crate::error::Error;
 use crate::render::{AccelKind, MAX_BOUNCES, MAX_SAMPLES, MAX_SIDE, MAX_THREADS, Settings};
 use crate::sampling::SamplerKind;
-use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{CommandFactory, FromArgMatches, Parser};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
-
-/// The names of the accelerators.
-pub(super) const ACCELS: [(&str, AccelKind); 2] =
-    [("embree", AccelKind::Embree), ("native", AccelKind::Native)];
-/// The names of the precisions.
-pub(super) const PRECISIONS: [(&str, Precision); 3] =
-    [("exact", Precision::Exact), ("robust", Precision::Robust), ("fast", Precision::Fast)];
-/// The names of the instruction sets.
-pub(super) const ISAS: [(&str, Isa); 3] = [("sse2", Isa::Sse2), ("avx2", Isa::Avx2), ("avx512", Isa::Avx512)];
-const SAMPLERS: [(&str, SamplerKind); 2] =
-    [("sobol", SamplerKind::Sobol), ("independent", SamplerKind::Independent)];
-const SWITCH: [(&str, bool); 2] = [("on", true), ("off", false)];
+use values::{SAMPLERS, SWITCH, choice, positive, stops, whole};
 
 /// The positional arguments of a render, as messages name them.
 const POSITIONALS: [&str; 6] = ["SCENE", "WIDTH", "HEIGHT", "SAMPLES", "BOUNCES", "IMAGE"];
@@ -38,7 +34,9 @@ static VERSION: LazyLock<String> = LazyLock::new(|| {
     about = "Renders a scene by path tracing",
     after_help = EXIT_CODES,
     override_usage = "pathtracer [OPTIONS] SCENE WIDTH HEIGHT SAMPLES BOUNCES IMAGE\n       \
-                      pathtracer check SCENE...",
+                      pathtracer check SCENE...\n       \
+                      pathtracer compare [OPTIONS] SCENE\n       \
+                      pathtracer bench [OPTIONS] [SCENE | OBJ]",
     args_conflicts_with_subcommands = true,
     disable_help_subcommand = true
 )]
@@ -50,7 +48,7 @@ pub(super) struct Arguments {
 }
 
 const EXIT_CODES: &str = "A scene that is named like a command is reached by ./NAME.\n\
-    Exit codes: 0 done, 1 failure, 2 usage, 3 bad scene, 130 and 143 interrupted.";
+    Exit codes: 0 done, 1 failure, 2 usage, 3 bad scene, 4 hits or pictures differ (compare), 130 and 143 interrupted.";
 
 #[derive(Debug, clap::Subcommand)]
 pub(super) enum Command {
@@ -61,6 +59,10 @@ pub(super) enum Command {
         #[arg(value_name = "SCENE", required = true)]
         scenes: Vec<PathBuf>,
     },
+    /// Trace the same rays of a scene with both accelerators: do the hits agree, and what do they cost?
+    Compare(CompareArguments),
+    /// Measure both accelerators at all precisions on meshes of growing size, or on one's own scene or mesh
+    Bench(BenchArguments),
 }
 
 /// A render as it was typed.
@@ -198,14 +200,10 @@ impl RenderArguments {
     }
 }
 
-/// The name of a value in one of the tables above.
-pub(super) fn name_of<T: PartialEq>(table: &[(&'static str, T)], value: &T) -> Option<&'static str> {
-    table.iter().find(|(_, other)| other == value).map(|&(name, _)| name)
-}
-
 fn usage(message: &str) -> Error {
     Error::Usage(format!(
-        "{message}\n\nUsage: pathtracer [OPTIONS] {}\n       pathtracer check SCENE...\n\nFor more information, try '--help'.",
+        "{message}\n\nUsage: pathtracer [OPTIONS] {}\n       pathtracer check SCENE...\n       \
+         pathtracer compare [OPTIONS] SCENE\n       pathtracer bench [OPTIONS] [SCENE | OBJ]\n\nFor more information, try '--help'.",
         POSITIONALS.join(" ")
     ))
 }
@@ -241,30 +239,8 @@ fn edit_distance(a: &str, b: &str) -> usize {
     row[b.len()]
 }
 
-/// Parses a whole number from 1 to `most`.
-fn whole(most: u64) -> impl Fn(&str) -> Result<u64, String> + Clone {
-    move |text| {
-        let number = text.parse().ok().filter(|number| (1..=most).contains(number));
-        number.ok_or_else(|| format!("expected a whole number from 1 to {most}"))
-    }
-}
-
-fn positive(text: &str) -> Result<f64, String> {
-    let number = text.parse().ok().filter(|number: &f64| number.is_finite() && *number > 0.0);
-    number.ok_or_else(|| "expected a finite number > 0".to_owned())
-}
-
-fn stops(text: &str) -> Result<f64, String> {
-    let number = text.parse().ok().filter(|number: &f64| number.abs() <= 100.0);
-    number.ok_or_else(|| "expected a number from -100 to 100".to_owned())
-}
-
-/// Parses one of the names in a table.
-fn choice<T: Copy + Send + Sync + 'static>(
-    table: &'static [(&'static str, T)],
-) -> impl TypedValueParser<Value = T> {
-    PossibleValuesParser::new(table.iter().map(|&(name, _)| name)).try_map(move |name| {
-        let found = table.iter().find(|&&(known, _)| known == name);
-        found.map(|&(_, value)| value).ok_or("unknown name")
-    })
+/// The threads asked for, or one a core.
+fn threads(wanted: Option<u64>) -> Result<usize, std::num::TryFromIntError> {
+    let all = || std::thread::available_parallelism().map_or(1, usize::from);
+    wanted.map(usize::try_from).transpose().map(|threads| threads.unwrap_or_else(all))
 }

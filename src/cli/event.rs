@@ -223,7 +223,7 @@ impl DiagnosticRecord {
 }
 
 /// Prints an event. A reader that has gone away does not stop the render.
-pub(super) fn emit(event: &Event<'_>) {
+pub(super) fn emit(event: &impl Serialize) {
     if let Ok(line) = serde_json::to_string(event) {
         let mut stdout = io::stdout().lock();
         let _ = writeln!(stdout, "{line}").and_then(|()| stdout.flush());

@@ -1,13 +1,16 @@
 //! The command line: what was typed, what it means, what is printed, exit codes.
 //!
 //! Results go to stdout, everything for humans to stderr. Exit codes: 0 done, 1 failure, 2 usage, 3 bad scene,
-//! 130 and 143 interrupted.
+//! 4 hits or pictures differ, 130 and 143 interrupted.
 
 mod arguments;
+mod bench;
 mod check;
+mod compare;
 mod console;
 mod describe;
 mod event;
+mod file;
 mod findings;
 mod interrupt;
 mod progress;
@@ -23,6 +26,8 @@ pub fn run(arguments: &[OsString]) -> anyhow::Result<u8> {
     let Arguments { command, render } = Arguments::parse(arguments)?;
     match command {
         Some(Command::Check { scenes }) => Ok(check::run(&scenes)),
+        Some(Command::Compare(arguments)) => compare::run(&arguments.resolve()?),
+        Some(Command::Bench(arguments)) => bench::run(&arguments.resolve()?),
         None => render::run(&render.resolve()?),
     }
 }

@@ -107,6 +107,6 @@ fn mix(x: u64) -> u64 {
 
 /// Element `i` of the SplitMix64 stream that starts at `state`.
 #[inline]
-fn stream(state: u64, i: u64) -> u64 {
+pub(crate) fn stream(state: u64, i: u64) -> u64 {
     mix(state.wrapping_add(i.wrapping_mul(GOLDEN)))
 }

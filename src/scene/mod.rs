@@ -13,8 +13,8 @@ mod read;
 mod source;
 mod yaml;
 
-use crate::error::{Diagnostic, Error, Result, Severity};
-use desc::SceneDesc;
+use crate::error::{Diagnostic, Error, Location, Result, Severity};
+use desc::{MeshDesc, SceneDesc};
 use diagnostic::Report;
 use source::Source;
 use std::fs::File;
@@ -57,6 +57,36 @@ pub fn load(path: &Path) -> Result<Scene> {
 pub fn parse(text: &str, file: &Path) -> Result<Scene> {
     let text = yaml::decode(text.as_bytes(), file).map_err(|diagnostic| Error::Scene(vec![*diagnostic]))?;
     read_text(text, file)
+}
+
+/// Reads the OBJ file at `path` without a scene.
+///
+/// # Errors
+/// [`Error::Scene`]: that the file can't be read, or the first errors in it, or that it has no faces.
+pub fn load_mesh(path: &Path) -> Result<MeshDesc> {
+    let diagnostic = |message: String, location, source_line| Diagnostic {
+        severity: Severity::Error,
+        message,
+        location,
+        source_line,
+        help: None,
+    };
+    let failed = |reason: &str| {
+        let message = format!("cannot read the mesh {}: {reason}", path.display());
+        Error::Scene(vec![diagnostic(message, None, None)])
+    };
+    match obj::load(path) {
+        Ok(loaded) if loaded.mesh.triangles.is_empty() => Err(failed("it has no faces with an area")),
+        Ok(loaded) => Ok(loaded.mesh),
+        Err(obj::Failure::Unreadable(reason)) => Err(failed(&reason)),
+        Err(obj::Failure::Faults { first, .. }) => {
+            let fault = |fault: obj::Fault| {
+                let location = Location { file: path.into(), line: fault.line, column: fault.column };
+                diagnostic(fault.message, Some(location), Some(fault.excerpt))
+            };
+            Err(Error::Scene(first.into_iter().map(fault).collect()))
+        }
+    }
 }
 
 fn unreadable(path: &Path, error: &io::Error) -> Diagnostic {

@@ -1,4 +1,6 @@
+mod bench;
 mod check;
+mod compare;
 mod findings;
 mod information;
 mod interrupt;

@@ -19,6 +19,11 @@ impl Blocks {
         Ok(Blocks { scene, blocks: boxes.blocks })
     }
 
+    /// Bytes of the blocks, which are not Embree's.
+    pub(super) fn bytes(&self) -> usize {
+        size_of_val(&self.blocks[..])
+    }
+
     pub(super) fn closest(&self, ray: &LocalRay) -> Option<TriangleHit> {
         let mut query = Closest { blocks: &self.blocks, ray, best: None };
         self.scene.intersect(ray, &mut query);

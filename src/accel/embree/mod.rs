@@ -35,12 +35,20 @@ pub struct Embree<'g> {
     /// Of every space.
     triangles: Vec<Triangles<'g>>,
     solids: Option<Solids<'g>>,
+    bytes: usize,
 }
 
 /// The scene over the triangles of a space.
 enum Triangles<'g> {
     Exact(Blocks),
     Native(NativeTriangles<'g>),
+}
+
+impl Triangles<'_> {
+    /// Bytes that are not Embree's.
+    fn block_bytes(&self) -> usize {
+        if let Triangles::Exact(blocks) = self { blocks.bytes() } else { 0 }
+    }
 }
 
 impl<'g> Embree<'g> {
@@ -63,7 +71,13 @@ impl<'g> Embree<'g> {
         let triangles = geometry.spaces.iter().map(build).collect::<Result<Vec<_>>>()?;
         let some_solids = !geometry.tree_solids.is_empty();
         let solids = some_solids.then(|| Solids::build(&device, geometry)).transpose()?;
-        Ok(Embree { geometry, triangles, solids })
+        let blocks: usize = triangles.iter().map(Triangles::block_bytes).sum();
+        Ok(Embree { geometry, triangles, solids, bytes: device.bytes() + blocks })
+    }
+
+    /// Bytes of trees and leaves as Embree counts them, and of the blocks of exact, without the geometry's own arrays.
+    pub fn bytes(&self) -> usize {
+        self.bytes
     }
 }
 

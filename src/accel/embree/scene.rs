@@ -13,6 +13,7 @@ use embree_sys::*;
 use std::ffi::{CStr, CString, c_char, c_void};
 use std::marker::PhantomData;
 use std::ptr;
+use std::sync::atomic::{AtomicI64, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 /// Lower and upper corner.
@@ -57,6 +58,8 @@ pub(super) struct Device {
     raw: RTCDevice,
     /// The first error since the last [`Device::check`]; Embree's threads write it.
     error: Box<Mutex<Option<String>>>,
+    /// Bytes that Embree holds; its threads write it.
+    bytes: Box<AtomicI64>,
     /// Whether callbacks may use AVX2.
     avx2: bool,
 }
@@ -84,10 +87,14 @@ impl Device {
                 _ => Error::Accelerator(message),
             });
         }
-        let device = Device { raw, error: Box::default(), avx2: allows_avx2(isa) };
+        let device = Device { raw, error: Box::default(), bytes: Box::default(), avx2: allows_avx2(isa) };
         let slot = (&raw const *device.error).cast_mut().cast();
-        // SAFETY: the mutex stays where it is until the drop of `device` takes the callback away.
-        unsafe { rtcSetDeviceErrorFunction(raw, Some(record_error), slot) };
+        let bytes = (&raw const *device.bytes).cast_mut().cast();
+        // SAFETY: mutex and counter stay where they are until the drop of `device` takes the callbacks away.
+        unsafe {
+            rtcSetDeviceErrorFunction(raw, Some(record_error), slot);
+            rtcSetDeviceMemoryMonitorFunction(raw, Some(count_bytes), bytes);
+        }
         device.check_version()?;
         Ok(device)
     }
@@ -115,6 +122,11 @@ impl Device {
         message.map_or(Ok(()), |text| Err(Error::Accelerator(format!("Embree failed when {doing}: {text}"))))
     }
 
+    /// Bytes that Embree holds for all scenes of this device: trees, leaves and what its allocator keeps in reserve.
+    pub(super) fn bytes(&self) -> usize {
+        usize::try_from(self.bytes.load(Ordering::Relaxed)).unwrap_or(0)
+    }
+
     fn new_geometry(&self, kind: RTCGeometryType) -> Result<GeometryHandle> {
         // SAFETY: the device is live.
         let raw = unsafe { new_geometry(self.raw, kind) };
@@ -128,6 +140,7 @@ impl Drop for Device {
         // SAFETY: the device is live; scenes that are left hold references of their own and find no callback.
         unsafe {
             rtcSetDeviceErrorFunction(self.raw, None, ptr::null_mut());
+            rtcSetDeviceMemoryMonitorFunction(self.raw, None, ptr::null_mut());
             rtcReleaseDevice(self.raw);
         }
     }
@@ -153,6 +166,14 @@ unsafe extern "C" fn record_error(slot: *mut c_void, code: RTCError, text: *cons
     let mut error = error.lock().unwrap_or_else(PoisonError::into_inner);
     let kind = error_text(code);
     error.get_or_insert_with(|| if details == kind { kind.into() } else { format!("{kind} ({details})") });
+}
+
+/// Adds what Embree allocates, or frees (a negative number), for [`Device::bytes`]. It may always go on.
+unsafe extern "C" fn count_bytes(slot: *mut c_void, bytes: isize, _post: bool) -> bool {
+    // SAFETY: `slot` is the counter of a live Device.
+    let counter = unsafe { &*slot.cast::<AtomicI64>() };
+    counter.fetch_add(bytes as i64, Ordering::Relaxed);
+    true
 }
 
 /// A geometry that this side holds a reference to.

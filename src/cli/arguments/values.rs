@@ -1,0 +1,108 @@
+//! Values of options: names in tables, numbers in ranges.
+
+use crate::accel::{Isa, Precision};
+use crate::render::AccelKind;
+use crate::sampling::SamplerKind;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+
+/// The names of the accelerators.
+pub(in crate::cli) const ACCELS: [(&str, AccelKind); 2] =
+    [("embree", AccelKind::Embree), ("native", AccelKind::Native)];
+/// The names of the precisions.
+pub(in crate::cli) const PRECISIONS: [(&str, Precision); 3] =
+    [("exact", Precision::Exact), ("robust", Precision::Robust), ("fast", Precision::Fast)];
+/// The names of the instruction sets.
+pub(in crate::cli) const ISAS: [(&str, Isa); 3] =
+    [("sse2", Isa::Sse2), ("avx2", Isa::Avx2), ("avx512", Isa::Avx512)];
+pub(super) const SAMPLERS: [(&str, SamplerKind); 2] =
+    [("sobol", SamplerKind::Sobol), ("independent", SamplerKind::Independent)];
+pub(super) const SWITCH: [(&str, bool); 2] = [("on", true), ("off", false)];
+
+/// The name of a value in one of the tables above.
+pub(in crate::cli) fn name_of<T: PartialEq>(table: &[(&'static str, T)], value: &T) -> Option<&'static str> {
+    table.iter().find(|(_, other)| other == value).map(|&(name, _)| name)
+}
+
+/// Parses a whole number from 1 to `most`.
+pub(super) fn whole(most: u64) -> impl Fn(&str) -> Result<u64, String> + Clone {
+    move |text| {
+        let number = text.parse().ok().filter(|number| (1..=most).contains(number));
+        number.ok_or_else(|| format!("expected a whole number from 1 to {most}"))
+    }
+}
+
+/// Parses a whole number from 1 to `most`, maybe in thousands (`50k`) or millions (`1M`).
+pub(super) fn amount(most: u64) -> impl Fn(&str) -> Result<u64, String> + Clone {
+    move |text| {
+        let number = with_suffix(text).filter(|number| (1..=most).contains(number));
+        number.ok_or_else(|| format!("expected a whole number from 1 to {most}, such as 5000, 50k or 1M"))
+    }
+}
+
+/// A whole number with an optional `k` or `M` behind it.
+fn with_suffix(text: &str) -> Option<u64> {
+    let (digits, factor) = match text.strip_suffix(['k', 'K']) {
+        Some(digits) => (digits, 1000),
+        None => text.strip_suffix('M').map_or((text, 1), |digits| (digits, 1_000_000)),
+    };
+    // "+5" would parse too.
+    let is_number = digits.bytes().all(|byte| byte.is_ascii_digit());
+    digits.parse::<u64>().ok().filter(|_| is_number)?.checked_mul(factor)
+}
+
+/// Numbers of triangles: from one size to another in steps of ten, both included.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Ladder(pub(super) Vec<usize>);
+
+/// The fewest and the most triangles of a generated mesh.
+const TRIANGLES: std::ops::RangeInclusive<u64> = 100..=100_000_000;
+
+/// Parses a [`Ladder`]: `1k..10M`, or `100k` for one size.
+pub(super) fn ladder(text: &str) -> Result<Ladder, String> {
+    let (first, last) = text.split_once("..").unwrap_or((text, text));
+    let ends = [first, last].map(|end| with_suffix(end).filter(|end| TRIANGLES.contains(end)));
+    let [Some(first), Some(last)] = ends else {
+        return Err("expected a number of triangles from 100 to 100M, or a range such as 1k..10M".to_owned());
+    };
+    if first > last {
+        return Err(format!("the range ends before it begins; did you mean {last}..{first}?"));
+    }
+    let steps =
+        std::iter::successors(Some(first), |size| size.checked_mul(10)).take_while(|&size| size < last);
+    Ok(Ladder(steps.chain([last]).map(|size| size as usize).collect()))
+}
+
+/// Parses a picture's size, such as `320x180`.
+pub(super) fn size(most: u32) -> impl Fn(&str) -> Result<[u32; 2], String> + Clone {
+    move |text| {
+        let sides = text.split_once('x').map(|(width, height)| [width, height].map(|side| side.parse().ok()));
+        match sides {
+            Some([Some(width), Some(height)])
+                if [width, height].iter().all(|side| (1..=most).contains(side)) =>
+            {
+                Ok([width, height])
+            }
+            _ => Err(format!("expected a width and a height from 1 to {most}, such as 320x180")),
+        }
+    }
+}
+
+pub(super) fn positive(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|number: &f64| number.is_finite() && *number > 0.0);
+    number.ok_or_else(|| "expected a finite number > 0".to_owned())
+}
+
+pub(super) fn stops(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|number: &f64| number.abs() <= 100.0);
+    number.ok_or_else(|| "expected a number from -100 to 100".to_owned())
+}
+
+/// Parses one of the names in a table.
+pub(super) fn choice<T: Copy + Send + Sync + 'static>(
+    table: &'static [(&'static str, T)],
+) -> impl TypedValueParser<Value = T> {
+    PossibleValuesParser::new(table.iter().map(|&(name, _)| name)).try_map(move |name| {
+        let found = table.iter().find(|&&(known, _)| known == name);
+        found.map(|&(_, value)| value).ok_or("unknown name")
+    })
+}
