@@ -35,6 +35,19 @@ pub enum Isa {
     Avx512,
 }
 
+/// How much time goes into the native tree, and into the trees of Embree's own triangles. It does not change hits, but
+/// which of Embree's hits of equal distance at [`Precision::Robust`] and [`Precision::Fast`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum BvhQuality {
+    /// Built soonest, for a look.
+    Fast,
+    /// Built soon, traced fast.
+    #[default]
+    Default,
+    /// Large triangles in pieces: a little larger, built later; traced faster where walls and beams are.
+    Quality,
+}
+
 /// What an accelerator is built with.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct BuildOptions {
@@ -42,6 +55,8 @@ pub struct BuildOptions {
     pub precision: Precision,
     /// The most that may be used, or `None` for the machine's best.
     pub isa: Option<Isa>,
+    /// How the tree is built.
+    pub quality: BvhQuality,
 }
 
 /// Answers for rays; see [`crate::geometry`] for what a hit is.
@@ -77,6 +92,7 @@ pub trait Kernel: Sync {
 }
 
 impl<K: Kernel> Accelerator for K {
+    #[inline]
     fn intersect(&self, ray: &Ray) -> Option<Hit> {
         if is_unit(ray) {
             return closest(self, ray);
@@ -110,8 +126,12 @@ fn closest<K: Kernel>(kernel: &K, ray: &Ray) -> Option<Hit> {
     }
     if !geometry.triangles.is_empty()
         && let Some(local) = local_ray(&geometry.mesh_frame, ray, &best)
+        && let Some(triangle) = kernel.closest_triangle(&local)
     {
-        best = nearer(best, kernel.closest_triangle(&local).map(|hit| geometry.world_hit(&local, &hit)));
+        let hit = geometry.world_hit(&local, &triangle);
+        if best.is_none_or(|best| hit.before(&best)) {
+            return Some(hit);
+        }
     }
     best
 }
@@ -152,6 +172,7 @@ fn with_unit_direction(ray: &Ray) -> Option<(Ray, f64)> {
 }
 
 /// The ray in a local space, for hits that may come before `best`.
+#[inline(always)]
 fn local_ray(frame: &LocalFrame, ray: &Ray, best: &Option<Hit>) -> Option<LocalRay> {
     frame.localize(ray, frame.widen(distance(best)), PrimitiveId::NONE)
 }

@@ -20,6 +20,7 @@
 mod ball;
 mod cuboid;
 mod frame;
+mod lanes;
 mod rectangle;
 mod scene;
 mod shear;
@@ -29,9 +30,12 @@ mod triangle;
 pub use ball::Ball;
 pub use cuboid::Cuboid;
 pub use frame::{LocalFrame, LocalRay};
+pub(crate) use lanes::Lanes;
 pub use rectangle::Rectangle;
 pub use scene::{Geometry, MeshPart, Shape, Solid};
+pub(crate) use shear::ShearedRay;
 pub use surface::SurfacePoint;
+pub(crate) use triangle::{Seen, any_in_lanes, closest_in_lanes};
 pub use triangle::{
     TriangleBlock, TriangleHit, any_in_block, closest_in_block, intersect_triangle, plane_hit,
 };
@@ -55,12 +59,6 @@ impl PrimitiveId {
     /// The solid with this index; below 2^31 - 1.
     pub fn solid(index: u32) -> PrimitiveId {
         PrimitiveId(index | Self::SOLID)
-    }
-
-    /// The bits: a triangle's index, or numbers from 2^31 on.
-    #[inline(always)]
-    fn bits(self) -> u32 {
-        self.0
     }
 
     /// The index, if this is a triangle.

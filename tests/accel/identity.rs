@@ -5,7 +5,7 @@ use pathtracer::accel::{Accelerator, Precision};
 use pathtracer::geometry::Geometry;
 use pathtracer::math::DVec3;
 
-use super::{every_isa, native};
+use super::{QUALITIES, every_isa, native, native_of};
 use crate::support::compare::assert_identical;
 use crate::support::meshes;
 use crate::support::rays::rays;
@@ -36,6 +36,13 @@ where
 #[test]
 fn native_equals_brute_force() {
     assert_equals_brute_force(native);
+}
+
+#[test]
+fn trees_of_every_quality_equal_brute_force() {
+    for quality in QUALITIES {
+        assert_equals_brute_force(|geometry| native_of(geometry, quality));
+    }
 }
 
 #[test]

@@ -9,6 +9,7 @@ mod build;
 mod fast;
 mod leaf;
 mod node;
+mod presplit;
 mod simd;
 mod split;
 mod traverse;
@@ -20,12 +21,13 @@ use self::build::Tree;
 use self::fast::FastTriangles;
 use self::leaf::{ExactTriangles, Solids};
 use self::node::{Node, NodeRay};
-use self::simd::Instructions;
+pub(super) use self::simd::Instructions;
 use self::split::PrimRef;
-use super::{BuildOptions, Isa, Kernel, Precision};
+use super::{BuildOptions, BvhQuality, Isa, Kernel, Precision};
 use crate::error::Result;
-use crate::geometry::{Geometry, Hit, LocalRay, PrimitiveId, Ray, TriangleBlock, TriangleHit};
+use crate::geometry::{Geometry, Hit, LocalRay, PrimitiveId, Ray, ShearedRay, TriangleBlock, TriangleHit};
 use crate::math::{round_down, round_up};
+use crate::memory::advise_huge_pages;
 
 /// Trees over the triangles and the solids of a [`Geometry`].
 pub struct Bvh<'g> {
@@ -35,6 +37,7 @@ pub struct Bvh<'g> {
     solid_nodes: Vec<Node>,
     solid_order: Vec<u32>,
     precision: Precision,
+    quality: BvhQuality,
     instructions: Instructions,
 }
 
@@ -43,7 +46,7 @@ impl<'g> Bvh<'g> {
     /// [`crate::error::Error::Usage`] if the machine lacks the instruction set asked for.
     pub fn build(geometry: &'g Geometry, options: &BuildOptions) -> Result<Bvh<'g>> {
         let instructions = Instructions::choose(options.isa)?;
-        let triangles = triangle_tree(geometry);
+        let triangles = triangle_tree(geometry, options.quality);
         let blocks = pack(geometry, &triangles);
         let solids = solid_tree(geometry);
         // One solid a leaf: the leaf's index is the place in the order.
@@ -55,6 +58,7 @@ impl<'g> Bvh<'g> {
             solid_nodes: solids.nodes,
             solid_order,
             precision: options.precision,
+            quality: options.quality,
             instructions,
         })
     }
@@ -83,27 +87,42 @@ impl PartialEq for Bvh<'_> {
     }
 }
 
-/// The triangles in blocks of up to eight, grouped by the surface area heuristic.
-pub fn triangle_blocks(geometry: &Geometry) -> Vec<TriangleBlock> {
-    pack(geometry, &triangle_tree(geometry))
+/// The triangles in blocks of up to eight, grouped by the surface area heuristic; every triangle is in one block.
+pub fn triangle_blocks(geometry: &Geometry, quality: BvhQuality) -> Vec<TriangleBlock> {
+    let whole = if quality == BvhQuality::Quality { BvhQuality::Default } else { quality };
+    pack(geometry, &triangle_tree(geometry, whole))
 }
 
 fn pack(geometry: &Geometry, tree: &Tree) -> Vec<TriangleBlock> {
     let block = |leaf: &std::ops::Range<u32>| {
         let indices = &tree.order[leaf.start as usize..leaf.end as usize];
-        TriangleBlock::new(indices.iter().map(|&index| (index, geometry.corners32(index))))
+        // Of several pieces of a triangle one is enough.
+        let first = |&(place, index): &(usize, &u32)| !indices[..place].contains(index);
+        let indices = indices.iter().enumerate().filter(first);
+        TriangleBlock::new(indices.map(|(_, &index)| (index, geometry.corners32(index))))
     };
-    tree.leaves.par_iter().map(block).collect()
+    let mut blocks = Vec::with_capacity(tree.leaves.len());
+    advise_huge_pages(&mut blocks);
+    tree.leaves.par_iter().map(block).collect_into_vec(&mut blocks);
+    blocks
 }
 
-fn triangle_tree(geometry: &Geometry) -> Tree {
+fn triangle_tree(geometry: &Geometry, quality: BvhQuality) -> Tree {
+    let prims = match quality {
+        BvhQuality::Quality => presplit::pieces(geometry),
+        BvhQuality::Fast | BvhQuality::Default => whole_triangles(geometry),
+    };
+    build::build(prims, TriangleBlock::LANES, quality == BvhQuality::Fast)
+}
+
+fn whole_triangles(geometry: &Geometry) -> Vec<PrimRef> {
     let triangles = 0..geometry.triangles.len() as u32;
     let prims = triangles.into_par_iter().map(|index| {
         let (low, high) = triangle_bounds(geometry, index);
         let padding = triangle_padding(geometry, low, high);
         PrimRef::new(index, low.map(|x| round_down(x - padding)), high.map(|x| round_up(x + padding)))
     });
-    build::build(prims.collect(), TriangleBlock::LANES)
+    prims.collect()
 }
 
 fn triangle_bounds(geometry: &Geometry, index: u32) -> ([f64; 3], [f64; 3]) {
@@ -111,7 +130,7 @@ fn triangle_bounds(geometry: &Geometry, index: u32) -> ([f64; 3], [f64; 3]) {
     (a.min(b).min(c).to_array(), a.max(b).max(c).to_array())
 }
 
-/// By how much a triangle's box is widened: 2^-22 of its own largest coordinate, and 2^-48 of the farthest that a local
+/// By how much a triangle's box is widened: 2^-21 of its own largest coordinate, and 2^-48 of the farthest that a local
 /// ray starts.
 ///
 /// The node test itself is conservative for the ray that the leaf decides about ([`NodeRay`]); this is for the leaf's own
@@ -120,7 +139,7 @@ fn triangle_bounds(geometry: &Geometry, index: u32) -> ([f64; 3], [f64; 3]) {
 /// triangle, the second for the rest. Being relative to the triangle, it costs a fine mesh nothing beside a huge one.
 fn triangle_padding(geometry: &Geometry, low: [f64; 3], high: [f64; 3]) -> f64 {
     let largest = low.into_iter().chain(high).fold(0.0, |most: f64, x| most.max(x.abs()));
-    largest / 4_194_304.0 + geometry.mesh_frame.padding() / 536_870_912.0
+    largest / 2_097_152.0 + geometry.mesh_frame.padding() / 536_870_912.0
 }
 
 fn solid_tree(geometry: &Geometry) -> Tree {
@@ -128,7 +147,7 @@ fn solid_tree(geometry: &Geometry) -> Tree {
         let (low, high) = geometry.solid_node_bounds(solid);
         PrimRef::new(solid, low, high)
     });
-    build::build(prims.collect(), 1)
+    build::build(prims.collect(), 1, false)
 }
 
 impl Bvh<'_> {
@@ -149,8 +168,9 @@ impl Kernel for Bvh<'_> {
         self.geometry
     }
 
+    #[inline(always)]
     fn closest_triangle(&self, ray: &LocalRay) -> Option<TriangleHit> {
-        let node_ray = NodeRay::new(ray);
+        let (node_ray, ray) = (NodeRay::new(ray), &ShearedRay::new(ray));
         let (nodes, blocks) = (&self.triangle_nodes[..], &self.blocks[..]);
         if self.precision != Precision::Fast {
             let mut leaf = ExactTriangles::new(blocks, ray);
@@ -162,8 +182,9 @@ impl Kernel for Bvh<'_> {
         leaf.hit()
     }
 
+    #[inline(always)]
     fn any_triangle(&self, ray: &LocalRay) -> bool {
-        let node_ray = NodeRay::new(ray);
+        let (node_ray, ray) = (NodeRay::new(ray), &ShearedRay::new(ray));
         let (nodes, blocks) = (&self.triangle_nodes[..], &self.blocks[..]);
         if self.precision != Precision::Fast {
             let leaf = ExactTriangles::new(blocks, ray);

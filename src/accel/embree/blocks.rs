@@ -1,32 +1,46 @@
 //! Exact: Embree finds the boxes around blocks of triangles, the shared leaf decides.
 
 use super::scene::{BoundingBox, Device, Queries, Scene, UserGeometry, reach};
-use crate::accel::bvh::triangle_blocks;
+use crate::accel::BuildOptions;
+use crate::accel::bvh::{Instructions, triangle_blocks};
 use crate::error::Result;
-use crate::geometry::{Geometry, LocalRay, TriangleBlock, TriangleHit, any_in_block, closest_in_block};
+use crate::geometry::{Geometry, LocalRay, ShearedRay, TriangleBlock, TriangleHit};
 use crate::math::{round_down, round_up};
 
 /// A scene of user primitives, each a block of up to eight triangles.
 pub(super) struct Blocks {
     scene: Scene<'static, BlockBoxes>,
     blocks: Vec<TriangleBlock>,
+    instructions: Instructions,
 }
 
 impl Blocks {
-    pub(super) fn build(device: &Device, geometry: &Geometry) -> Result<Blocks> {
-        let boxes = BlockBoxes { blocks: triangle_blocks(geometry), padding: geometry.mesh_frame.padding() };
+    pub(super) fn build(device: &Device, geometry: &Geometry, options: &BuildOptions) -> Result<Blocks> {
+        let instructions = Instructions::choose(options.isa)?;
+        let boxes = BlockBoxes {
+            blocks: triangle_blocks(geometry, options.quality),
+            padding: geometry.mesh_frame.padding(),
+        };
         let scene = Scene::of_boxes(device, &boxes, boxes.blocks.len())?;
-        Ok(Blocks { scene, blocks: boxes.blocks })
+        Ok(Blocks { scene, blocks: boxes.blocks, instructions })
     }
 
     pub(super) fn closest(&self, ray: &LocalRay) -> Option<TriangleHit> {
-        let mut query = Closest { blocks: &self.blocks, ray, best: None };
+        let mut query = Closest {
+            blocks: &self.blocks,
+            ray: ShearedRay::new(ray),
+            best: None,
+            instructions: self.instructions,
+        };
         self.scene.intersect(ray, &mut query);
         query.best
     }
 
     pub(super) fn any(&self, ray: &LocalRay) -> bool {
-        self.scene.occluded(ray, &mut Any { blocks: &self.blocks, ray })
+        self.scene.occluded(
+            ray,
+            &mut Any { blocks: &self.blocks, ray: ShearedRay::new(ray), instructions: self.instructions },
+        )
     }
 }
 
@@ -37,13 +51,15 @@ struct BlockBoxes {
 
 struct Closest<'q> {
     blocks: &'q [TriangleBlock],
-    ray: &'q LocalRay,
+    ray: ShearedRay<'q>,
     best: Option<TriangleHit>,
+    instructions: Instructions,
 }
 
 struct Any<'q> {
     blocks: &'q [TriangleBlock],
-    ray: &'q LocalRay,
+    ray: ShearedRay<'q>,
+    instructions: Instructions,
 }
 
 impl Queries for BlockBoxes {
@@ -60,12 +76,14 @@ impl UserGeometry for BlockBoxes {
 
     #[inline(always)]
     fn closest(query: &mut Closest<'_>, primitive: u32) -> Option<f32> {
-        closest_in_block(query.blocks.get(primitive as usize)?, query.ray, &mut query.best);
-        query.best.map(|best| reach(best.t))
+        let block = query.blocks.get(primitive as usize)?;
+        let nearer = query.instructions.closest_in_block(block, &query.ray, &mut query.best);
+        if nearer { query.best.map(|best| reach(best.t)) } else { None }
     }
 
     #[inline(always)]
     fn any(query: &mut Any<'_>, primitive: u32) -> bool {
-        query.blocks.get(primitive as usize).is_some_and(|block| any_in_block(block, query.ray))
+        let block = query.blocks.get(primitive as usize);
+        block.is_some_and(|block| query.instructions.any_in_block(block, &query.ray))
     }
 }

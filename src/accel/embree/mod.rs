@@ -4,7 +4,7 @@
 //! |---|---|---|
 //! | exact | user geometry: boxes around blocks of up to eight triangles (`blocks`) | the shared leaf |
 //! | robust | triangle geometry, `RTC_SCENE_FLAG_ROBUST` (`native`) | Embree chooses the triangle, t, u, v are computed in f64 |
-//! | fast | triangle geometry, high build quality (spatial splits) | the same |
+//! | fast | triangle geometry, with spatial splits unless the fast build is asked for | the same |
 //!
 //! Solids are user geometry of a scene of their own, in their own local space (`solids`), and always exact.
 //!
@@ -53,9 +53,10 @@ impl<'g> Embree<'g> {
         let device = Device::new(options.isa)?;
         let triangles = match options.precision {
             _ if geometry.triangles.is_empty() => Triangles::None,
-            Precision::Exact => Triangles::Exact(Blocks::build(&device, geometry)?),
-            Precision::Robust => Triangles::Native(NativeTriangles::build(&device, geometry, true)?),
-            Precision::Fast => Triangles::Native(NativeTriangles::build(&device, geometry, false)?),
+            Precision::Exact => Triangles::Exact(Blocks::build(&device, geometry, options)?),
+            Precision::Robust | Precision::Fast => {
+                Triangles::Native(NativeTriangles::build(&device, geometry, options)?)
+            }
         };
         let some_solids = !geometry.tree_solids.is_empty();
         let solids = some_solids.then(|| Solids::build(&device, geometry)).transpose()?;

@@ -1,6 +1,7 @@
 //! Robust and fast: Embree's own triangle tests choose, and the choice is measured in f64.
 
 use super::scene::{Device, Filter, Queries, Scene};
+use crate::accel::BuildOptions;
 use crate::error::Result;
 use crate::geometry::{Geometry, LocalRay, TriangleHit, plane_hit};
 
@@ -14,9 +15,9 @@ impl<'g> NativeTriangles<'g> {
     pub(super) fn build(
         device: &Device,
         geometry: &'g Geometry,
-        robust: bool,
+        options: &BuildOptions,
     ) -> Result<NativeTriangles<'g>> {
-        Ok(NativeTriangles { scene: Scene::of_triangles(device, geometry, robust)?, geometry })
+        Ok(NativeTriangles { scene: Scene::of_triangles(device, geometry, options)?, geometry })
     }
 
     pub(super) fn closest(&self, ray: &LocalRay) -> Option<TriangleHit> {
