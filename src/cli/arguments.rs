@@ -1,6 +1,6 @@
 //! What was typed: the options of clap, and the cases where it needs help to say what is wrong.
 
-use crate::accel::{Isa, Precision};
+use crate::accel::{BvhQuality, Isa, Precision};
 use crate::error::Error;
 use crate::render::{AccelKind, MAX_BOUNCES, MAX_SAMPLES, MAX_SIDE, MAX_THREADS, Settings};
 use crate::sampling::SamplerKind;
@@ -18,6 +18,8 @@ pub(super) const PRECISIONS: [(&str, Precision); 3] =
     [("exact", Precision::Exact), ("robust", Precision::Robust), ("fast", Precision::Fast)];
 /// The names of the instruction sets.
 pub(super) const ISAS: [(&str, Isa); 3] = [("sse2", Isa::Sse2), ("avx2", Isa::Avx2), ("avx512", Isa::Avx512)];
+pub(super) const BVHS: [(&str, BvhQuality); 3] =
+    [("fast", BvhQuality::Fast), ("default", BvhQuality::Default), ("quality", BvhQuality::Quality)];
 const SAMPLERS: [(&str, SamplerKind); 2] =
     [("sobol", SamplerKind::Sobol), ("independent", SamplerKind::Independent)];
 const SWITCH: [(&str, bool); 2] = [("on", true), ("off", false)];
@@ -97,6 +99,9 @@ pub(super) struct RenderArguments {
     /// Most instructions to use [default: the machine's best]
     #[arg(long, value_name = "NAME", value_parser = choice(&ISAS))]
     isa: Option<Isa>,
+    /// How much time goes into the tree over the triangles [default: default]
+    #[arg(long, value_name = "NAME", value_parser = choice(&BVHS))]
+    bvh: Option<BvhQuality>,
     /// Threads [default: one a core]
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole(MAX_THREADS as u64))]
     threads: Option<u64>,
@@ -178,6 +183,7 @@ impl RenderArguments {
             accel: self.accel.unwrap_or(defaults.accel),
             precision: self.precision.unwrap_or(defaults.precision),
             isa: self.isa,
+            bvh: self.bvh.unwrap_or(defaults.bvh),
             threads: self.threads.map(usize::try_from).transpose()?,
             tile: self.tile.map(u32::try_from).transpose()?,
             seed: self.seed,
