@@ -10,6 +10,8 @@
 pub mod error;
 pub mod math;
 
+mod memory;
+
 pub mod picture;
 
 pub mod scene;

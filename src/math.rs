@@ -107,24 +107,6 @@ pub fn round_down(x: f64) -> f32 {
     if f64::from(near) > x { near.next_down() } else { near }
 }
 
-/// The difference of two vectors; with [`cross32`] and [`dot32`] for loops over the lanes of f32 blocks.
-#[inline(always)]
-pub(crate) fn subtract32(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-/// The cross product; every product is rounded.
-#[inline(always)]
-pub(crate) fn cross32(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-/// The dot product; every product is rounded.
-#[inline(always)]
-pub(crate) fn dot32(a: [f32; 3], b: [f32; 3]) -> f32 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
 /// The sine and cosine of an angle in degrees; exact at multiples of 90.
 pub fn sin_cos_degrees(degrees: f64) -> (f64, f64) {
     let turn = degrees % 360.0;

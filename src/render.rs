@@ -14,7 +14,7 @@ pub use memory::film_bytes;
 use crate::accel::bvh::Bvh;
 #[cfg(feature = "embree")]
 use crate::accel::embree::Embree;
-use crate::accel::{Accelerator, BuildOptions, Isa, Precision};
+use crate::accel::{Accelerator, BuildOptions, BvhQuality, Isa, Precision};
 use crate::error::{Error, Result};
 use crate::film::Film;
 use crate::integrator::{Counters, PathTracer};
@@ -87,6 +87,8 @@ pub struct Settings {
     pub precision: Precision,
     /// The most instructions to use, or `None` for the machine's best.
     pub isa: Option<Isa>,
+    /// How the accelerator's tree is built.
+    pub bvh: BvhQuality,
     /// Threads, 1 to [`MAX_THREADS`], or `None` for one a core.
     pub threads: Option<usize>,
     /// Side of a tile in pixels, 1 to [`MAX_SIDE`], or `None` to choose one that keeps all threads busy.
@@ -115,6 +117,7 @@ impl Settings {
             accel: AccelKind::default(),
             precision: Precision::default(),
             isa: None,
+            bvh: BvhQuality::default(),
             threads: None,
             tile: None,
             chunk: CHUNK,
@@ -250,7 +253,8 @@ struct Run<'r> {
 impl Run<'_> {
     fn with_accel<A: Accelerator>(&self, build: impl Fn(&BuildOptions) -> Result<A>) -> Result<Rendered> {
         let start = Instant::now();
-        let accel = build(&BuildOptions { precision: self.settings.precision, isa: self.settings.isa })?;
+        let Settings { precision, isa, bvh: quality, .. } = *self.settings;
+        let accel = build(&BuildOptions { precision, isa, quality })?;
         let build_seconds = start.elapsed().as_secs_f64();
         let rendered = match self.settings.sampler {
             SamplerKind::Sobol => self.with_sampler(&accel, Sobol::new(self.settings.seed)),

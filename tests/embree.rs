@@ -105,7 +105,7 @@ fn rays_at(mesh: &MeshPart, center: DVec3, count: usize, random: &mut Random) ->
 }
 
 fn options(precision: Precision, isa: Option<Isa>) -> BuildOptions {
-    BuildOptions { precision, isa }
+    BuildOptions { precision, isa, ..Default::default() }
 }
 
 fn bits(hit: Option<Hit>) -> Option<([u64; 3], u32, PrimitiveId, u32)> {

@@ -22,7 +22,7 @@ fn incoherent_rays(count: usize, seed: u64) -> Vec<Ray> {
 
 /// Every disagreement, and how many rays hit anything.
 fn disagreements(native: &Geometry, embree: &Geometry, rays: &[Ray]) -> (Vec<Verdict>, usize) {
-    let options = BuildOptions { precision: Precision::Robust, isa: None };
+    let options = BuildOptions { precision: Precision::Robust, ..Default::default() };
     let bvh = Bvh::build(native, &options).expect("a tree");
     let other = Embree::build(embree, &options).expect("an Embree scene");
     let answers: Vec<(Option<Hit>, Option<Hit>)> =

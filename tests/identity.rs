@@ -3,7 +3,7 @@
 
 use crate::support::watch::Unwatched;
 use pathtracer::accel::bvh::Bvh;
-use pathtracer::accel::{BuildOptions, Isa, Precision};
+use pathtracer::accel::{BuildOptions, BvhQuality, Isa, Precision};
 use pathtracer::geometry::Geometry;
 use pathtracer::output;
 use pathtracer::picture::Destination;
@@ -94,7 +94,7 @@ fn schedules_agree(samples: u64) {
     }
 }
 
-/// At exact all accelerators in all instruction sets.
+/// At exact all accelerators in all instruction sets, and with all trees.
 fn exact_pictures_agree(samples: u64) {
     for name in NAMES {
         let subject = Subject::new(name, samples);
@@ -102,6 +102,9 @@ fn exact_pictures_agree(samples: u64) {
         let expected = subject.files(&base);
         for &accel in ACCELERATORS {
             let variants = instruction_sets().into_iter().map(|isa| Settings { accel, isa, ..base.clone() });
+            assert_same(name, &subject, &expected, variants);
+            let qualities = [BvhQuality::Fast, BvhQuality::Quality];
+            let variants = qualities.into_iter().map(|bvh| Settings { accel, bvh, ..base.clone() });
             assert_same(name, &subject, &expected, variants);
         }
     }

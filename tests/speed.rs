@@ -44,7 +44,7 @@ fn accelerators(geometry: &Geometry) -> Vec<Named<'_>> {
     for (name, precision) in
         [("exact", Precision::Exact), ("robust", Precision::Robust), ("fast", Precision::Fast)]
     {
-        let options = BuildOptions { precision, isa: None };
+        let options = BuildOptions { precision, ..Default::default() };
         let native = Bvh::build(geometry, &options).expect("a tree");
         all.push((format!("native {name}"), Box::new(native)));
         #[cfg(feature = "embree")]

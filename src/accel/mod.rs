@@ -35,6 +35,19 @@ pub enum Isa {
     Avx512,
 }
 
+/// How much time goes into the native tree, and into the trees of Embree's own triangles. It does not change hits, but
+/// which of Embree's hits of equal distance at [`Precision::Robust`] and [`Precision::Fast`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum BvhQuality {
+    /// Built soonest, for a look.
+    Fast,
+    /// Built soon, traced fast.
+    #[default]
+    Default,
+    /// Large triangles in pieces: a little larger, built later; traced faster where walls and beams are.
+    Quality,
+}
+
 /// What an accelerator is built with.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct BuildOptions {
@@ -42,6 +55,8 @@ pub struct BuildOptions {
     pub precision: Precision,
     /// The most that may be used, or `None` for the machine's best.
     pub isa: Option<Isa>,
+    /// How the tree is built.
+    pub quality: BvhQuality,
 }
 
 /// Answers for rays; see [`crate::geometry`] for what a hit is.
@@ -102,6 +117,7 @@ pub fn any_in_solid<K: Kernel>(kernel: &K, solid: u32, ray: &Ray, t_max: f64, ta
 }
 
 impl<K: Kernel> Accelerator for K {
+    #[inline]
     fn intersect(&self, ray: &Ray) -> Option<Hit> {
         if is_unit(ray) {
             return closest(self, ray);
@@ -136,9 +152,13 @@ fn closest<K: Kernel>(kernel: &K, ray: &Ray) -> Option<Hit> {
     }
     for (space, mesh) in geometry.world_spaces() {
         let reach = mesh.frame.widen(distance(&best));
-        if let Some(local) = geometry.localize(space, ray, reach, PrimitiveId::NONE) {
-            let hit = kernel.closest_triangle(space, &local);
-            best = nearer(best, hit.map(|hit| geometry.world_hit(space, &local, &hit)));
+        if let Some(local) = geometry.localize(space, ray, reach, PrimitiveId::NONE)
+            && let Some(triangle) = kernel.closest_triangle(space, &local)
+        {
+            let hit = geometry.world_hit(space, &local, &triangle);
+            if best.is_none_or(|best| hit.before(&best)) {
+                best = Some(hit);
+            }
         }
     }
     best

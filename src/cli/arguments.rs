@@ -6,9 +6,9 @@ mod values;
 
 pub(super) use bench::{BenchArguments, BenchJob, Subject};
 pub(super) use compare::{CompareArguments, CompareJob};
-pub(super) use values::{ACCELS, ISAS, PRECISIONS, name_of};
+pub(super) use values::{ACCELS, BVHS, ISAS, PRECISIONS, name_of};
 
-use crate::accel::{Isa, Precision};
+use crate::accel::{BvhQuality, Isa, Precision};
 use crate::error::Error;
 use crate::render::{AccelKind, MAX_BOUNCES, MAX_SAMPLES, MAX_SIDE, MAX_THREADS, Settings};
 use crate::sampling::SamplerKind;
@@ -99,6 +99,9 @@ pub(super) struct RenderArguments {
     /// Most instructions to use [default: the machine's best]
     #[arg(long, value_name = "NAME", value_parser = choice(&ISAS))]
     isa: Option<Isa>,
+    /// How much time goes into the tree over the triangles [default: default]
+    #[arg(long, value_name = "NAME", value_parser = choice(&BVHS))]
+    bvh: Option<BvhQuality>,
     /// Threads [default: one a core]
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole(MAX_THREADS as u64))]
     threads: Option<u64>,
@@ -180,6 +183,7 @@ impl RenderArguments {
             accel: self.accel.unwrap_or(defaults.accel),
             precision: self.precision.unwrap_or(defaults.precision),
             isa: self.isa,
+            bvh: self.bvh.unwrap_or(defaults.bvh),
             threads: self.threads.map(usize::try_from).transpose()?,
             tile: self.tile.map(u32::try_from).transpose()?,
             seed: self.seed,

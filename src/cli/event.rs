@@ -1,6 +1,6 @@
 //! `--json`: one JSON object a line on stdout.
 
-use super::arguments::{ACCELS, ISAS, Job, PRECISIONS, name_of};
+use super::arguments::{ACCELS, BVHS, ISAS, Job, PRECISIONS, name_of};
 use crate::error::{Diagnostic, Error, Severity};
 use crate::render::{Progress, Rendered};
 use crate::world::Requires;
@@ -41,6 +41,7 @@ pub(super) struct JobRecord {
     accel: Option<&'static str>,
     precision: Option<&'static str>,
     isa: Option<&'static str>,
+    bvh: Option<&'static str>,
     threads: usize,
     tile: u32,
     chunk: u32,
@@ -127,6 +128,7 @@ impl JobRecord {
             accel: name_of(&ACCELS, &settings.accel),
             precision: name_of(&PRECISIONS, &settings.precision),
             isa: settings.isa.and_then(|isa| name_of(&ISAS, &isa)),
+            bvh: name_of(&BVHS, &settings.bvh),
             threads: settings.thread_count(),
             tile: settings.tile_side(),
             chunk: settings.chunk,

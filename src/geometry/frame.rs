@@ -1,8 +1,7 @@
 //! Local f32 space: where triangles and the nodes of accelerators live, and the way of a ray into it.
 
 use super::Ray;
-use super::shear::{Shear, signed_area};
-use crate::math::{Bounds, DVec3, Vec3, round_down, round_up};
+use crate::math::{Bounds, DVec3, Vec3, round_up};
 
 /// A space that is the world's moved by `pivot` and scaled by a power of two, for the primitives within `bounds`.
 #[derive(Clone, Copy, Debug)]
@@ -30,7 +29,6 @@ pub struct LocalRay {
     pub direction: Vec3,
     origin64: DVec3,
     direction64: DVec3,
-    shear: Shear,
     /// Longest distance of interest in units of `direction`; finite.
     pub t_max: f64,
     /// World distance from the start of the path's ray to `origin`.
@@ -52,27 +50,10 @@ impl LocalRay {
         self.direction64
     }
 
-    /// Twice the signed areas, seen along the ray, of the three triangles that it makes with the edges opposite to the
-    /// corners; their signs are exact for the corners as they are seen, so that triangles that share edges or corners
-    /// let no ray through.
-    #[inline(always)]
-    pub(super) fn edges(&self, corners: [DVec3; 3]) -> [f64; 3] {
-        let seen = |corner: DVec3| self.shear.project(corner - self.origin64);
-        let (a, b, c) = (seen(corners[0]), seen(corners[1]), seen(corners[2]));
-        [signed_area(b, c), signed_area(c, a), signed_area(a, b)]
-    }
-
     /// Whether the triangle with this index can't be hit by this ray.
     #[inline(always)]
     pub fn excludes(&self, triangle: u32) -> bool {
         self.excluded[0] == triangle || self.excluded[1] == triangle
-    }
-
-    /// The indices of the triangles that can't be hit, as [`LocalRay::excludes`] tells them one by one;
-    /// [`PrimitiveId::NO_TRIANGLE`](super::PrimitiveId::NO_TRIANGLE) where there is none.
-    #[inline(always)]
-    pub(super) fn excluded_indices(&self) -> [u32; 2] {
-        self.excluded
     }
 
     /// `t_max` for an f32 kernel: rounded up.
@@ -136,6 +117,7 @@ impl LocalFrame {
     /// A ray that starts far away is first moved, in f64, to the sphere around the bounds, so that rounding it to f32
     /// costs no more than the size of what is in here. A ray that leaves a surface is rounded away from it, for kernels
     /// that decide in f32. `excluded` are the indices of the triangles that it can't hit.
+    #[inline(always)]
     pub fn localize(&self, ray: &Ray, t_max: f64, excluded: [u32; 2]) -> Option<LocalRay> {
         let mut origin = self.to_local(ray.origin);
         let mut shift = 0.0;
@@ -161,7 +143,6 @@ impl LocalFrame {
             direction: ray.direction.as_vec3(),
             origin64: origin,
             direction64: ray.direction,
-            shear: Shear::onto_largest_axis(ray.direction),
             t_max: local_t_max.min(f64::from(f32::MAX)),
             shift,
             excluded,
@@ -176,6 +157,7 @@ const NEAR: f64 = 4.0;
 const ROUNDING_SLACK: f64 = 1.0 / 1_048_576.0;
 
 /// Distance at which a ray from `offset` (relative to the centre, outside) enters the sphere.
+#[cold]
 fn enter_sphere(offset: DVec3, direction: DVec3, radius: f64) -> Option<f64> {
     let along = -offset.dot(direction);
     let perpendicular = (offset + direction * along).length();
@@ -187,16 +169,27 @@ fn enter_sphere(offset: DVec3, direction: DVec3, radius: f64) -> Option<f64> {
 }
 
 /// Rounded to f32, each component to the side of `side`'s component (zero: to nearest): the result never lies behind
-/// the plane through `p` with the normal `side`.
+/// the plane through `p` with the normal `side`. Without branches: which way a number was rounded cannot be guessed.
+#[inline(always)]
 fn round_away(p: DVec3, side: DVec3) -> Vec3 {
-    let round = |p: f64, side: f64| {
-        if side > 0.0 {
-            round_up(p)
-        } else if side < 0.0 {
-            round_down(p)
-        } else {
-            p as f32
-        }
-    };
-    Vec3::new(round(p.x, side.x), round(p.y, side.y), round(p.z, side.z))
+    Vec3::new(round_towards(p.x, side.x), round_towards(p.y, side.y), round_towards(p.z, side.z))
+}
+
+/// [`round_away`] for one component.
+#[inline(always)]
+fn round_towards(p: f64, side: f64) -> f32 {
+    let near = p as f32;
+    let short = (f64::from(near) - p) * side < 0.0;
+    step_towards(near, side.is_sign_negative(), u32::from(short))
+}
+
+/// The number `steps` (0 or 1) after `x` in the order of numbers, or before it if `down`.
+#[inline(always)]
+fn step_towards(x: f32, down: bool, steps: u32) -> f32 {
+    let sign = u32::from(down) << 31;
+    // Zero has two signs, of which only one leads to the next number.
+    let bits = if x == 0.0 { sign } else { x.to_bits() };
+    // Larger in size if the step goes on to the side on which the number is, else smaller.
+    let inwards = 0u32.wrapping_sub((bits ^ sign) >> 31);
+    f32::from_bits(bits.wrapping_add((steps ^ inwards).wrapping_sub(inwards)))
 }

@@ -23,6 +23,7 @@ mod cuboid;
 mod frame;
 mod id;
 mod instance;
+mod lanes;
 mod mesh_space;
 mod rectangle;
 mod scene;
@@ -35,10 +36,13 @@ pub use cuboid::Cuboid;
 pub use frame::{LocalFrame, LocalRay};
 pub use id::PrimitiveId;
 pub use instance::Instance;
+pub(crate) use lanes::Lanes;
 pub use mesh_space::{MeshEntry, MeshPart, MeshSpace};
 pub use rectangle::Rectangle;
 pub use scene::{Geometry, Shape, Solid};
+pub(crate) use shear::ShearedRay;
 pub use surface::SurfacePoint;
+pub(crate) use triangle::{Seen, any_in_lanes, closest_in_lanes};
 pub use triangle::{
     TriangleBlock, TriangleHit, any_in_block, closest_in_block, intersect_triangle, plane_hit,
 };

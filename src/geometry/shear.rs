@@ -1,5 +1,6 @@
 //! The plane across a ray, where triangles become 2D and the question of a hit becomes exact.
 
+use super::LocalRay;
 use crate::math::DVec3;
 
 /// A shear that makes a ray's direction an axis (Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1)
@@ -10,10 +11,21 @@ use crate::math::DVec3;
 /// between them, neither at edges nor at corners.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shear {
-    /// The direction's largest axis, 0 to 2.
-    axis: u32,
-    /// Slopes of the direction along the two axes that follow it in turn.
+    /// The axes in turn, the direction's largest one last. A table to look up, not a choice to branch on: rays come with
+    /// any of the three, and a wrong guess costs more than all the rest of this.
+    order: [usize; 3],
+    /// Slopes of the direction along the first two of them.
     slopes: [f64; 2],
+}
+
+/// The axes in turn, by the one that comes last.
+const ORDERS: [[usize; 3]; 3] = [[1, 2, 0], [2, 0, 1], [0, 1, 2]];
+
+#[inline(always)]
+fn rotated(p: DVec3, [x, y, z]: [usize; 3]) -> [f64; 3] {
+    // Four, so that no index has to be checked.
+    let p = [p.x, p.y, p.z, p.z];
+    [p[x & 3], p[y & 3], p[z & 3]]
 }
 
 impl Shear {
@@ -21,32 +33,107 @@ impl Shear {
     #[inline(always)]
     pub(super) fn onto_largest_axis(direction: DVec3) -> Shear {
         let size = direction.abs();
-        let axis = if size.x >= size.y && size.x >= size.z {
-            0
-        } else if size.y >= size.z {
-            1
-        } else {
-            2
-        };
-        let [x, y, z] = rotated(direction, axis);
-        Shear { axis, slopes: [x / z, y / z] }
+        let other_than_x = usize::from(size.x < size.y.max(size.z));
+        let order = ORDERS[other_than_x * (1 + usize::from(size.y < size.z))];
+        let [x, y, z] = rotated(direction, order);
+        Shear { order, slopes: [x / z, y / z] }
+    }
+
+    /// The components of a vector, that of the direction's largest axis last.
+    #[inline(always)]
+    pub(super) fn rotate(&self, p: DVec3) -> [f64; 3] {
+        rotated(p, self.order)
+    }
+
+    /// Where a point, relative to the start of the ray, is seen; its components as [`Shear::rotate`] orders them.
+    #[inline(always)]
+    pub(super) fn project_rotated(&self, [x, y, z]: [f64; 3]) -> [f64; 2] {
+        [x - self.slopes[0] * z, y - self.slopes[1] * z]
     }
 
     /// Where a point, relative to the start of the ray, is seen.
     #[inline(always)]
     pub(super) fn project(&self, p: DVec3) -> [f64; 2] {
-        let [x, y, z] = rotated(p, self.axis);
-        [x - self.slopes[0] * z, y - self.slopes[1] * z]
+        self.project_rotated(self.rotate(p))
     }
 }
 
-/// The components with that of `axis` last.
-#[inline(always)]
-fn rotated(p: DVec3, axis: u32) -> [f64; 3] {
-    match axis {
-        0 => [p.y, p.z, p.x],
-        1 => [p.z, p.x, p.y],
-        _ => [p.x, p.y, p.z],
+/// A local ray with its shear: in f64 to decide about triangles, in f32 to find candidates. The components are ordered as
+/// [`Shear::rotate`] does.
+#[derive(Clone, Debug)]
+pub(crate) struct ShearedRay<'r> {
+    /// The ray itself.
+    pub(super) ray: &'r LocalRay,
+    shear: Shear,
+    /// Start and direction.
+    pub(super) origin: [f64; 3],
+    pub(super) direction: [f64; 3],
+    /// The start, rounded to within 2^-23 of the size of each component.
+    pub(super) origin32: [f32; 3],
+    /// The slopes, rounded to nearest.
+    pub(super) slopes32: [f32; 2],
+    /// One over the largest component of the direction, that is the distance along the ray by distance along the axis.
+    pub(crate) stretch32: f32,
+}
+
+impl<'r> ShearedRay<'r> {
+    /// The shear of a ray.
+    #[inline(always)]
+    pub(crate) fn new(ray: &'r LocalRay) -> ShearedRay<'r> {
+        let shear = Shear::onto_largest_axis(ray.direction64());
+        let direction = shear.rotate(ray.direction64());
+        let [x, y, z] = shear.order;
+        let rounded = [ray.origin.x, ray.origin.y, ray.origin.z, ray.origin.z];
+        ShearedRay {
+            ray,
+            shear,
+            origin: shear.rotate(ray.origin64()),
+            direction,
+            origin32: [rounded[x & 3], rounded[y & 3], rounded[z & 3]],
+            slopes32: [shear.slopes[0] as f32, shear.slopes[1] as f32],
+            stretch32: 1.0 / direction[2] as f32,
+        }
+    }
+
+    /// The ray itself.
+    #[inline(always)]
+    pub(crate) fn local(&self) -> &'r LocalRay {
+        self.ray
+    }
+
+    /// The end of the ray for an f32 kernel: rounded up.
+    #[inline(always)]
+    pub(crate) fn t_max32(&self) -> f32 {
+        self.ray.t_max32()
+    }
+
+    /// The axes in the order of the components; each is below three.
+    #[inline(always)]
+    pub(super) fn order(&self) -> [usize; 3] {
+        self.shear.order
+    }
+
+    /// The components of a point in the order of those of this ray.
+    #[inline(always)]
+    pub(super) fn rotate(&self, p: DVec3) -> [f64; 3] {
+        self.shear.rotate(p)
+    }
+
+    /// Where a point is seen.
+    #[inline(always)]
+    fn project(&self, p: [f64; 3]) -> [f64; 2] {
+        let o = self.origin;
+        self.shear.project_rotated([p[0] - o[0], p[1] - o[1], p[2] - o[2]])
+    }
+
+    /// Twice the signed areas, seen along the ray, of the three triangles that it makes with the edges opposite to the
+    /// corners; their signs are exact for the corners as they are seen, so that triangles that share edges or corners
+    /// let no ray through.
+    #[inline(always)]
+    pub(super) fn edges(&self, corners: [[f64; 3]; 3]) -> [f64; 3] {
+        let [a, b, c] = corners;
+        let (a, b, c) = (self.project(a), self.project(b), self.project(c));
+        [signed_area(b, c), signed_area(c, a), signed_area(a, b)]
     }
 }
 

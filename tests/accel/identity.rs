@@ -3,11 +3,13 @@
 use pathtracer::accel::brute_force::BruteForce;
 #[cfg(feature = "embree")]
 use pathtracer::accel::embree::Embree;
-use pathtracer::accel::{Accelerator, BuildOptions, Isa, Precision};
+use pathtracer::accel::{Accelerator, Precision};
+#[cfg(feature = "embree")]
+use pathtracer::accel::{BuildOptions, Isa};
 use pathtracer::geometry::Geometry;
 use pathtracer::math::DVec3;
 
-use super::{every_isa, native};
+use super::{QUALITIES, every_isa, native, native_of};
 use crate::support::compare::assert_identical;
 use crate::support::meshes;
 use crate::support::rays::rays;
@@ -18,18 +20,16 @@ type Named<'g> = (String, Box<dyn Accelerator + 'g>);
 
 /// Both accelerators at exact in every instruction set that this machine has.
 fn all_exact(geometry: &Geometry) -> Vec<Named<'_>> {
-    let mut all: Vec<Named<'_>> = Vec::new();
-    for kernel in every_isa(geometry, Precision::Exact) {
-        all.push((format!("native {:?}", kernel.isa()), Box::new(kernel)));
-    }
+    let native = every_isa(geometry, Precision::Exact).into_iter();
+    let all =
+        native.map(|kernel| (format!("native {:?}", kernel.isa()), Box::new(kernel) as Box<dyn Accelerator>));
     #[cfg(feature = "embree")]
-    for isa in [Isa::Sse2, Isa::Avx2, Isa::Avx512] {
+    let all = all.chain([Isa::Sse2, Isa::Avx2, Isa::Avx512].into_iter().filter_map(|isa| {
         let options = BuildOptions { isa: Some(isa), ..BuildOptions::default() };
-        if let Ok(kernel) = Embree::build(geometry, &options) {
-            all.push((format!("Embree {isa:?}"), Box::new(kernel)));
-        }
-    }
-    all
+        let kernel = Embree::build(geometry, &options).ok()?;
+        Some((format!("Embree {isa:?}"), Box::new(kernel) as Box<dyn Accelerator>))
+    }));
+    all.collect()
 }
 
 /// Compares all accelerators with each other on `count` rays, the first also with brute force on `checked` of them.
@@ -69,6 +69,18 @@ fn all_accelerators_equal_brute_force_on_a_million_rays_of_every_kind() {
         }
     }
     assert_all_agree(&on_a_large_ball(), 1_000_000, 2_000);
+}
+
+#[test]
+fn trees_of_every_quality_equal_brute_force() {
+    for quality in QUALITIES {
+        for kind in KINDS {
+            let scene = scene(kind, FAR);
+            let what = format!("{kind}, {quality:?}");
+            let native = native_of(&scene.geometry, quality);
+            assert_identical(&what, &BruteForce::new(&scene.geometry), &native, &rays(&scene, 10_000, 12));
+        }
+    }
 }
 
 #[test]

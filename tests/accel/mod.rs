@@ -8,18 +8,29 @@ mod ties;
 mod watertight;
 
 use pathtracer::accel::bvh::Bvh;
-use pathtracer::accel::{BuildOptions, Isa, Precision};
+use pathtracer::accel::{BuildOptions, BvhQuality, Isa, Precision};
 use pathtracer::geometry::Geometry;
 
 /// The native accelerator with the machine's best instructions.
 fn native(geometry: &Geometry) -> Bvh<'_> {
-    Bvh::build(geometry, &BuildOptions { precision: Precision::Exact, isa: None }).unwrap()
+    Bvh::build(geometry, &BuildOptions { precision: Precision::Exact, ..Default::default() }).unwrap()
+}
+
+/// All of them.
+const QUALITIES: [BvhQuality; 3] = [BvhQuality::Fast, BvhQuality::Default, BvhQuality::Quality];
+
+/// The native accelerator, exact, with a tree of this quality.
+fn native_of(geometry: &Geometry, quality: BvhQuality) -> Bvh<'_> {
+    let options = BuildOptions { precision: Precision::Exact, quality, ..Default::default() };
+    Bvh::build(geometry, &options).unwrap()
 }
 
 /// The native accelerator in every instruction set that this machine has.
 fn every_isa(geometry: &Geometry, precision: Precision) -> Vec<Bvh<'_>> {
     let sets = [Isa::Sse2, Isa::Avx2, Isa::Avx512];
     sets.into_iter()
-        .filter_map(|isa| Bvh::build(geometry, &BuildOptions { precision, isa: Some(isa) }).ok())
+        .filter_map(|isa| {
+            Bvh::build(geometry, &BuildOptions { precision, isa: Some(isa), ..Default::default() }).ok()
+        })
         .collect()
 }

@@ -1,8 +1,8 @@
 //! Tests of the identity test: it must fail when an accelerator is broken.
 
-use pathtracer::accel::Kernel;
 use pathtracer::accel::brute_force::BruteForce;
 use pathtracer::accel::bvh::triangle_blocks;
+use pathtracer::accel::{BvhQuality, Kernel};
 use pathtracer::geometry::{
     Geometry, Hit, LocalRay, PrimitiveId, Ray, TriangleBlock, TriangleHit, any_in_block, closest_in_block,
     intersect_triangle,
@@ -24,7 +24,7 @@ struct Blocks<'g> {
 
 impl<'g> Blocks<'g> {
     fn new(geometry: &'g Geometry, padding: f32) -> Blocks<'g> {
-        Blocks { geometry, blocks: triangle_blocks(&geometry.spaces[0]), padding }
+        Blocks { geometry, blocks: triangle_blocks(&geometry.spaces[0], BvhQuality::Default), padding }
     }
 
     fn visited<'r>(&'r self, ray: &'r LocalRay) -> impl Iterator<Item = &'r TriangleBlock> {

@@ -1,11 +1,11 @@
 //! The tree itself: whole, bounded, the same for any number of threads.
 
 use pathtracer::accel::bvh::{Bvh, triangle_blocks};
-use pathtracer::accel::{Accelerator, BuildOptions, Isa, Precision};
+use pathtracer::accel::{Accelerator, BuildOptions, BvhQuality, Isa, Precision};
 use pathtracer::geometry::{Geometry, MeshPart, MeshSpace, Ray};
 use pathtracer::math::DVec3;
 
-use super::native;
+use super::{QUALITIES, native, native_of};
 use crate::support::compare::assert_identical;
 use crate::support::meshes;
 use crate::support::random::Random;
@@ -36,7 +36,7 @@ fn nothing_makes_a_valid_tree() {
     assert_valid("empty", &geometry);
     let ray = Ray::new(DVec3::ZERO, DVec3::X);
     assert_eq!(native(&geometry).intersect(&ray), None);
-    assert!(triangle_blocks(&MeshSpace::new(Vec::new())).is_empty());
+    assert!(triangle_blocks(&MeshSpace::new(Vec::new()), BvhQuality::Default).is_empty());
 }
 
 #[test]
@@ -81,7 +81,7 @@ fn huge_and_tiny_coordinates_make_a_valid_tree() {
 #[test]
 fn blocks_hold_every_triangle_once() {
     let geometry = of_mesh(meshes::terrain(30, 0.2, 66));
-    let mut found: Vec<u32> = triangle_blocks(&geometry.spaces[0])
+    let mut found: Vec<u32> = triangle_blocks(&geometry.spaces[0], BvhQuality::Default)
         .iter()
         .flat_map(|block| block.indices().collect::<Vec<_>>())
         .collect();
@@ -102,12 +102,43 @@ fn meshes_take_at_most_90_bytes_a_triangle() {
 
 #[test]
 fn the_tree_does_not_depend_on_the_number_of_threads() {
-    let geometry = of_mesh(meshes::sphere(1.0, 420, 0.2, 67));
-    let build = |threads| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| native(&geometry))
-    };
-    assert!(build(1) == build(2));
+    let mut mesh = meshes::sphere(1.0, 420, 0.2, 67);
+    mesh.positions.iter_mut().step_by(97).for_each(|p| *p *= 1.5);
+    let geometry = of_mesh(mesh);
+    for quality in QUALITIES {
+        let build = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| native_of(&geometry, quality))
+        };
+        assert!(build(1) == build(2), "{quality:?}");
+    }
+}
+
+#[test]
+fn every_quality_makes_a_valid_tree() {
+    for quality in QUALITIES {
+        for kind in KINDS {
+            let geometry = scene(kind, DVec3::ZERO).geometry;
+            assert_eq!(native_of(&geometry, quality).validate(), Ok(()), "{kind}, {quality:?}");
+        }
+        let large = of_mesh(meshes::sphere(1.0, 400, 0.1, 61));
+        assert_eq!(native_of(&large, quality).validate(), Ok(()), "large sphere, {quality:?}");
+    }
+}
+
+#[test]
+fn triangles_in_pieces_take_at_most_90_bytes_a_triangle() {
+    for mesh in [meshes::soup(50_000, 0.1, 73), meshes::soup(5000, 1.0, 74)] {
+        let geometry = of_mesh(mesh);
+        let bytes = native_of(&geometry, BvhQuality::Quality).bytes() as f64;
+        assert!(bytes <= 90.0 * geometry.spaces[0].triangles.len() as f64, "{bytes} bytes");
+    }
+}
+
+#[test]
+fn pieces_are_cut_off_large_triangles() {
+    let geometry = of_mesh(meshes::soup(1000, 1.0, 75));
+    assert!(native_of(&geometry, BvhQuality::Quality).bytes() > native(&geometry).bytes());
 }
 
 #[test]
@@ -140,7 +171,10 @@ fn an_instruction_set_that_the_machine_lacks_is_a_usage_error() {
     let geometry = Geometry::new(Vec::new(), &[]);
     let best = native(&geometry).isa();
     for isa in [Isa::Sse2, Isa::Avx2, Isa::Avx512] {
-        let built = Bvh::build(&geometry, &BuildOptions { precision: Precision::Exact, isa: Some(isa) });
+        let built = Bvh::build(
+            &geometry,
+            &BuildOptions { precision: Precision::Exact, isa: Some(isa), ..Default::default() },
+        );
         assert_eq!(built.is_ok(), isa <= best);
         if let Err(error) = built {
             assert_eq!(error.exit_code(), 2);

@@ -8,7 +8,8 @@ fn events(ended: &Ended) -> Vec<Value> {
 
 #[test]
 fn a_render_starts_and_is_done() {
-    let ended = Folder::new().run("ball.yaml 8 6 20 3 a.exr --json --seed 7 --accel native --threads 1");
+    let ended = Folder::new()
+        .run("ball.yaml 8 6 20 3 a.exr --json --seed 7 --accel native --bvh quality --threads 1");
     ended.succeeds();
     let events = events(&ended);
     let (first, last) = (&events[0], &events[events.len() - 1]);
@@ -26,6 +27,7 @@ fn a_render_starts_and_is_done() {
             (Some("sobol"), Some(true))
         );
         assert!(event["isa"].is_null());
+        assert_eq!(event["bvh"], "quality");
         assert!(event["requires"].is_object());
     }
     assert_eq!((last["samples_taken"].as_u64(), last["dropped_samples"].as_u64()), (Some(20), Some(0)));

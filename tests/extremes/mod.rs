@@ -48,7 +48,7 @@ impl Accelerator for Named<'_> {
 
 /// Both accelerators at a precision; the native one alone without Embree.
 fn accelerators(geometry: &Geometry, precision: Precision) -> Vec<Named<'_>> {
-    let options = BuildOptions { precision, isa: None };
+    let options = BuildOptions { precision, ..Default::default() };
     let named = |name: &str, accelerator| Named { name: format!("{name} {precision:?}"), accelerator };
     vec![
         named(

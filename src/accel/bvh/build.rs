@@ -10,6 +10,7 @@ use rayon::prelude::*;
 
 use super::node::{Child, Node, WIDTH};
 use super::split::{Aabb, PrimRef, bounds_of, split};
+use crate::memory::advise_huge_pages;
 
 /// Levels that the surface area heuristic may shape; deeper ones are cut into equal eighths.
 pub(super) const SAH_DEPTH: usize = 32;
@@ -36,6 +37,14 @@ pub(super) struct Part<'p> {
     pub(super) centroids: Aabb,
 }
 
+/// How parts are split.
+pub(super) struct Rules {
+    /// Primitives that fit into a leaf.
+    pub(super) block: usize,
+    /// Whether only cuts across the longest axis are looked at.
+    pub(super) hasty: bool,
+}
+
 /// What the recursion finds, before it is known where in memory it comes to lie.
 enum Subtree {
     Leaf(Range<u32>),
@@ -58,41 +67,44 @@ impl Subtree {
     }
 }
 
-/// The tree over `prims`, with up to `block` primitives a leaf.
-pub(super) fn build(mut prims: Vec<PrimRef>, block: usize) -> Tree {
+/// The tree over `prims`, with up to `block` primitives a leaf; `hasty` looks along one axis only.
+pub(super) fn build(mut prims: Vec<PrimRef>, block: usize, hasty: bool) -> Tree {
     if prims.is_empty() {
         return Tree { nodes: vec![Node::EMPTY], leaves: Vec::new(), order: Vec::new() };
     }
     let (bounds, centroids) = bounds_of(&prims);
-    let root = inner(Part { prims: &mut prims, start: 0, bounds, centroids }, block, 0);
-    let mut nodes = vec![Node::EMPTY; root.nodes()];
+    let rules = Rules { block, hasty };
+    let root = inner(Part { prims: &mut prims, start: 0, bounds, centroids }, &rules, 0);
+    let mut nodes = Vec::with_capacity(root.nodes());
+    advise_huge_pages(&mut nodes);
+    (0..root.nodes()).into_par_iter().map(|_| Node::EMPTY).collect_into_vec(&mut nodes);
     let mut leaves = vec![0..0; root.leaves()];
     place(root, &mut nodes, &mut leaves, 0, 0);
     Tree { nodes, leaves, order: prims.par_iter().map(PrimRef::index).collect() }
 }
 
-fn subtree(part: Part, block: usize, depth: usize) -> Subtree {
-    if part.prims.len() <= block {
+fn subtree(part: Part, rules: &Rules, depth: usize) -> Subtree {
+    if part.prims.len() <= rules.block {
         let start = part.start as u32;
         return Subtree::Leaf(start..start + part.prims.len() as u32);
     }
-    inner(part, block, depth)
+    inner(part, rules, depth)
 }
 
 /// A node over a part: the child with the largest box is split until there are eight.
-fn inner(part: Part, block: usize, depth: usize) -> Subtree {
+fn inner(part: Part, rules: &Rules, depth: usize) -> Subtree {
     let parallel = part.prims.len() > PARALLEL;
     let mut parts = Vec::with_capacity(WIDTH);
     parts.push(part);
     while parts.len() < WIDTH {
-        let Some(widest) = widest(&parts, block, depth) else { break };
-        let (left, right) = split(parts.swap_remove(widest), block, depth < SAH_DEPTH);
+        let Some(widest) = widest(&parts, rules.block, depth) else { break };
+        let (left, right) = split(parts.swap_remove(widest), rules, depth < SAH_DEPTH);
         parts.push(left);
         parts.push(right);
     }
     // Along the array, so that leaves that follow each other in memory are near each other in space.
     parts.sort_by_key(|part| part.start);
-    let build = |part: Part| (part.bounds, subtree(part, block, depth + 1));
+    let build = |part: Part| (part.bounds, subtree(part, rules, depth + 1));
     let children: Vec<_> = if parallel {
         parts.into_par_iter().map(build).collect()
     } else {
@@ -125,7 +137,8 @@ fn place(tree: Subtree, nodes: &mut [Node], leaves: &mut [Range<u32>], first_nod
     let (root, mut nodes) = nodes.split_at_mut(1);
     let (mut leaves, mut node, mut leaf) = (leaves, first_node + 1, first_leaf);
     let mut jobs = Vec::with_capacity(WIDTH);
-    for (lane, (bounds, child)) in children.into_iter().enumerate() {
+    let lanes = by_size(&children);
+    for ((bounds, child), lane) in children.into_iter().zip(lanes) {
         let reference = match child {
             Subtree::Leaf(_) => Child::leaf(leaf as u32),
             Subtree::Inner { .. } => Child::node(node as u32),
@@ -139,6 +152,16 @@ fn place(tree: Subtree, nodes: &mut [Node], leaves: &mut [Range<u32>], first_nod
     }
     let run = |(child, nodes, leaves, node, leaf)| place(child, nodes, leaves, node, leaf);
     if parallel { jobs.into_par_iter().for_each(run) } else { jobs.into_iter().for_each(run) }
+}
+
+/// The lane of each child: the largest box comes first, so that a search for any hit tries large leaves first.
+fn by_size(children: &[(Aabb, Subtree)]) -> [usize; WIDTH] {
+    let area = |child: &usize| children[*child].0.half_area();
+    let mut order: Vec<usize> = (0..children.len()).collect();
+    order.sort_by(|a, b| area(b).total_cmp(&area(a)));
+    let mut lanes = [0; WIDTH];
+    order.into_iter().enumerate().for_each(|(lane, child)| lanes[child] = lane);
+    lanes
 }
 
 fn xyz(v: Vec4) -> [f32; 3] {

@@ -4,20 +4,23 @@ use super::Bvh;
 use super::traverse::Leaf;
 use crate::accel::{any_in_solid, closest_in_solid};
 use crate::geometry::{
-    Hit, LocalRay, PrimitiveId, Ray, TriangleBlock, TriangleHit, any_in_block, closest_in_block,
+    Hit, Lanes, LocalRay, PrimitiveId, Ray, ShearedRay, TriangleBlock, TriangleHit, any_in_lanes,
+    closest_in_lanes,
 };
 use crate::math::round_up;
 
 /// Blocks decided by the shared leaf.
 pub(super) struct ExactTriangles<'t> {
     pub(super) blocks: &'t [TriangleBlock],
-    pub(super) ray: &'t LocalRay,
+    /// A reference: the traversal would hold a copy of all of it in registers that it does not have.
+    ray: &'t ShearedRay<'t>,
     pub(super) best: Option<TriangleHit>,
     limit: f32,
 }
 
 impl<'t> ExactTriangles<'t> {
-    pub(super) fn new(blocks: &'t [TriangleBlock], ray: &'t LocalRay) -> ExactTriangles<'t> {
+    #[inline(always)]
+    pub(super) fn new(blocks: &'t [TriangleBlock], ray: &'t ShearedRay<'t>) -> ExactTriangles<'t> {
         ExactTriangles { blocks, ray, best: None, limit: ray.t_max32() }
     }
 }
@@ -29,8 +32,8 @@ impl Leaf for ExactTriangles<'_> {
     }
 
     #[inline(always)]
-    fn closest(&mut self, leaf: u32) {
-        if closest_in_block(&self.blocks[leaf as usize], self.ray, &mut self.best)
+    fn closest<L: Lanes>(&mut self, leaf: u32, lanes: L) {
+        if closest_in_lanes(&self.blocks[leaf as usize], self.ray, &mut self.best, lanes)
             && let Some(best) = &self.best
         {
             self.limit = round_up(best.t);
@@ -43,8 +46,8 @@ impl Leaf for ExactTriangles<'_> {
     }
 
     #[inline(always)]
-    fn any(&self, leaf: u32) -> bool {
-        any_in_block(&self.blocks[leaf as usize], self.ray)
+    fn any<L: Lanes>(&self, leaf: u32, lanes: L) -> bool {
+        any_in_lanes(&self.blocks[leaf as usize], self.ray, lanes)
     }
 }
 
@@ -75,7 +78,7 @@ impl Leaf for Solids<'_> {
     }
 
     #[inline(always)]
-    fn closest(&mut self, leaf: u32) {
+    fn closest<L: Lanes>(&mut self, leaf: u32, _: L) {
         self.best = closest_in_solid(self.kernel, self.order[leaf as usize], self.ray, self.best);
     }
 
@@ -85,7 +88,7 @@ impl Leaf for Solids<'_> {
     }
 
     #[inline(always)]
-    fn any(&self, leaf: u32) -> bool {
+    fn any<L: Lanes>(&self, leaf: u32, _: L) -> bool {
         any_in_solid(self.kernel, self.order[leaf as usize], self.ray, self.t_max, self.target)
     }
 }

@@ -9,6 +9,7 @@ mod build;
 mod fast;
 mod leaf;
 mod node;
+mod presplit;
 mod simd;
 mod split;
 mod traverse;
@@ -20,12 +21,15 @@ use self::build::Tree;
 use self::fast::FastTriangles;
 use self::leaf::{ExactTriangles, Solids};
 use self::node::{Node, NodeRay};
-use self::simd::Instructions;
+pub(super) use self::simd::Instructions;
 use self::split::PrimRef;
-use super::{BuildOptions, Isa, Kernel, Precision};
+use super::{BuildOptions, BvhQuality, Isa, Kernel, Precision};
 use crate::error::Result;
-use crate::geometry::{Geometry, Hit, LocalRay, MeshSpace, PrimitiveId, Ray, TriangleBlock, TriangleHit};
+use crate::geometry::{
+    Geometry, Hit, LocalRay, MeshSpace, PrimitiveId, Ray, ShearedRay, TriangleBlock, TriangleHit,
+};
 use crate::math::{round_down, round_up};
+use crate::memory::advise_huge_pages;
 
 /// Trees over the triangles and the solids of a [`Geometry`].
 pub struct Bvh<'g> {
@@ -35,6 +39,7 @@ pub struct Bvh<'g> {
     solid_nodes: Vec<Node>,
     solid_order: Vec<u32>,
     precision: Precision,
+    quality: BvhQuality,
     instructions: Instructions,
 }
 
@@ -46,8 +51,8 @@ struct TriangleTree {
 }
 
 impl TriangleTree {
-    fn over(space: &MeshSpace) -> TriangleTree {
-        let tree = triangle_tree(space);
+    fn over(space: &MeshSpace, quality: BvhQuality) -> TriangleTree {
+        let tree = triangle_tree(space, quality);
         let blocks = pack(space, &tree);
         TriangleTree { nodes: tree.nodes, blocks }
     }
@@ -62,7 +67,8 @@ impl<'g> Bvh<'g> {
     /// [`crate::error::Error::Usage`] if the machine lacks the instruction set asked for.
     pub fn build(geometry: &'g Geometry, options: &BuildOptions) -> Result<Bvh<'g>> {
         let instructions = Instructions::choose(options.isa)?;
-        let triangles = geometry.spaces.iter().map(TriangleTree::over).collect();
+        let over = |space| TriangleTree::over(space, options.quality);
+        let triangles = geometry.spaces.iter().map(over).collect();
         let solids = solid_tree(geometry);
         // One solid a leaf: the leaf's index is the place in the order.
         let solid_order = solids.order;
@@ -72,6 +78,7 @@ impl<'g> Bvh<'g> {
             solid_nodes: solids.nodes,
             solid_order,
             precision: options.precision,
+            quality: options.quality,
             instructions,
         })
     }
@@ -98,27 +105,42 @@ impl PartialEq for Bvh<'_> {
     }
 }
 
-/// The triangles of a space in blocks of up to eight, grouped by the surface area heuristic.
-pub fn triangle_blocks(space: &MeshSpace) -> Vec<TriangleBlock> {
-    pack(space, &triangle_tree(space))
+/// The triangles of a space in blocks of up to eight, grouped by the surface area heuristic; every triangle is in one block.
+pub fn triangle_blocks(space: &MeshSpace, quality: BvhQuality) -> Vec<TriangleBlock> {
+    let whole = if quality == BvhQuality::Quality { BvhQuality::Default } else { quality };
+    pack(space, &triangle_tree(space, whole))
 }
 
 fn pack(space: &MeshSpace, tree: &Tree) -> Vec<TriangleBlock> {
     let block = |leaf: &std::ops::Range<u32>| {
         let indices = &tree.order[leaf.start as usize..leaf.end as usize];
-        TriangleBlock::new(indices.iter().map(|&index| (index, space.corners32(index))))
+        // Of several pieces of a triangle one is enough.
+        let first = |&(place, index): &(usize, &u32)| !indices[..place].contains(index);
+        let indices = indices.iter().enumerate().filter(first);
+        TriangleBlock::new(indices.map(|(_, &index)| (index, space.corners32(index))))
     };
-    tree.leaves.par_iter().map(block).collect()
+    let mut blocks = Vec::with_capacity(tree.leaves.len());
+    advise_huge_pages(&mut blocks);
+    tree.leaves.par_iter().map(block).collect_into_vec(&mut blocks);
+    blocks
 }
 
-fn triangle_tree(space: &MeshSpace) -> Tree {
+fn triangle_tree(space: &MeshSpace, quality: BvhQuality) -> Tree {
+    let prims = match quality {
+        BvhQuality::Quality => presplit::pieces(space),
+        BvhQuality::Fast | BvhQuality::Default => whole_triangles(space),
+    };
+    build::build(prims, TriangleBlock::LANES, quality == BvhQuality::Fast)
+}
+
+fn whole_triangles(space: &MeshSpace) -> Vec<PrimRef> {
     let triangles = 0..space.triangles.len() as u32;
     let prims = triangles.into_par_iter().map(|index| {
         let (low, high) = triangle_bounds(space, index);
         let padding = triangle_padding(space, low, high);
         PrimRef::new(index, low.map(|x| round_down(x - padding)), high.map(|x| round_up(x + padding)))
     });
-    build::build(prims.collect(), TriangleBlock::LANES)
+    prims.collect()
 }
 
 fn triangle_bounds(space: &MeshSpace, index: u32) -> ([f64; 3], [f64; 3]) {
@@ -126,7 +148,7 @@ fn triangle_bounds(space: &MeshSpace, index: u32) -> ([f64; 3], [f64; 3]) {
     (a.min(b).min(c).to_array(), a.max(b).max(c).to_array())
 }
 
-/// By how much a triangle's box is widened: 2^-22 of its own largest coordinate, and 2^-48 of the farthest that a local
+/// By how much a triangle's box is widened: 2^-21 of its own largest coordinate, and 2^-48 of the farthest that a local
 /// ray starts.
 ///
 /// The node test itself is conservative for the ray that the leaf decides about ([`NodeRay`]); this is for the leaf's own
@@ -135,7 +157,7 @@ fn triangle_bounds(space: &MeshSpace, index: u32) -> ([f64; 3], [f64; 3]) {
 /// triangle, the second for the rest. Being relative to the triangle, it costs a fine mesh nothing beside a huge one.
 fn triangle_padding(space: &MeshSpace, low: [f64; 3], high: [f64; 3]) -> f64 {
     let largest = low.into_iter().chain(high).fold(0.0, |most: f64, x| most.max(x.abs()));
-    largest / 4_194_304.0 + space.frame.padding() / 536_870_912.0
+    largest / 2_097_152.0 + space.frame.padding() / 536_870_912.0
 }
 
 fn solid_tree(geometry: &Geometry) -> Tree {
@@ -143,7 +165,7 @@ fn solid_tree(geometry: &Geometry) -> Tree {
         let (low, high) = geometry.solid_node_bounds(solid);
         PrimRef::new(solid, low, high)
     });
-    build::build(prims.collect(), 1)
+    build::build(prims.collect(), 1, false)
 }
 
 impl Bvh<'_> {
@@ -164,8 +186,9 @@ impl Kernel for Bvh<'_> {
         self.geometry
     }
 
+    #[inline(always)]
     fn closest_triangle(&self, space: u32, ray: &LocalRay) -> Option<TriangleHit> {
-        let node_ray = NodeRay::new(ray);
+        let (node_ray, ray) = (NodeRay::new(ray), &ShearedRay::new(ray));
         let TriangleTree { nodes, blocks } = &self.triangles[space as usize];
         if self.precision != Precision::Fast {
             let mut leaf = ExactTriangles::new(blocks, ray);
@@ -177,8 +200,9 @@ impl Kernel for Bvh<'_> {
         leaf.hit()
     }
 
+    #[inline(always)]
     fn any_triangle(&self, space: u32, ray: &LocalRay) -> bool {
-        let node_ray = NodeRay::new(ray);
+        let (node_ray, ray) = (NodeRay::new(ray), &ShearedRay::new(ray));
         let TriangleTree { nodes, blocks } = &self.triangles[space as usize];
         if self.precision != Precision::Fast {
             let leaf = ExactTriangles::new(blocks, ray);

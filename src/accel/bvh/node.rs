@@ -57,88 +57,98 @@ impl Child {
 #[derive(Clone, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub(super) struct Node {
-    /// Lower x, y, z, then upper x, y, z.
-    pub(super) planes: [[f32; WIDTH]; 6],
+    /// By axis, the lower and the upper ones.
+    pub(super) planes: [[[f32; WIDTH]; 2]; 3],
     /// What is in the boxes; [`Child::NONE`] in empty lanes, which come last.
     pub(super) children: [Child; WIDTH],
+    /// A bit for every lane, from the lowest on, that holds a leaf.
+    pub(super) leaves: u32,
 }
 
 impl Node {
     pub(super) const EMPTY: Node = {
         let (low, high) = ([f32::INFINITY; WIDTH], [f32::NEG_INFINITY; WIDTH]);
-        Node { planes: [low, low, low, high, high, high], children: [Child::NONE; WIDTH] }
+        Node { planes: [[low, high]; 3], children: [Child::NONE; WIDTH], leaves: 0 }
     };
 
     /// Puts a child into a lane.
     pub(super) fn set(&mut self, lane: usize, low: [f32; 3], high: [f32; 3], child: Child) {
         for axis in 0..3 {
-            self.planes[axis][lane] = low[axis];
-            self.planes[axis + 3][lane] = high[axis];
+            self.planes[axis][0][lane] = low[axis];
+            self.planes[axis][1][lane] = high[axis];
         }
         self.children[lane] = child;
+        self.leaves |= u32::from(child.is_leaf()) << lane;
+    }
+
+    /// The planes across an axis: those that are met first, and those that are met last by a ray that goes `backwards`
+    /// (0 or 1) along it.
+    #[inline(always)]
+    pub(super) fn planes_along(&self, axis: usize, backwards: usize) -> (&[f32; WIDTH], &[f32; WIDTH]) {
+        let planes = &self.planes[axis];
+        (&planes[backwards & 1], &planes[(backwards & 1) ^ 1])
     }
 
     /// Lower and upper corner of a lane's box.
     pub(super) fn bounds(&self, lane: usize) -> ([f32; 3], [f32; 3]) {
-        let corner = |first: usize| [0, 1, 2].map(|axis| self.planes[first + axis][lane]);
-        (corner(0), corner(3))
+        let corner = |side: usize| [0, 1, 2].map(|axis| self.planes[axis][side][lane]);
+        (corner(0), corner(1))
     }
 }
 
-/// A ray as the node test needs it.
+/// A ray as the node test needs it. Distances are `(plane - origin) * reciprocal`.
 ///
-/// The test is conservative for the f64 ray. That one starts within one f32 step of the local ray's origin: so planes are
-/// seen from a step nearer to where they are met first, and from a step farther from where they are met last. The
-/// distance to a plane is `(plane - origin) * reciprocal`; its three roundings and that of the direction change it by a
-/// factor within (1 +- 2^-24)^4 (Pharr, Jakob, Humphreys, "Physically Based Rendering" 4th ed., 6.8.2: gamma(4)). Instead
-/// of widening the far distance in every node, the reciprocals are made smaller for near planes and larger for far planes
-/// once a ray, by six roundings where five are needed.
+/// The test is conservative for the f64 ray: with u = 2^-24, the roundings of the difference, of the reciprocal, of the
+/// direction and of the product change a distance by a factor within (1 +- u)^4. That is as if the plane were moved by
+/// 4.01 u |plane - origin|, at most 4.01 u (|plane| + |origin|). The builder moves planes by more than 4.01 u |plane|; here
+/// the origin is moved by 8 u of itself, where 4.01 u are needed, 2 u for its own rounding to f32 and 1 u for this one:
+/// back for planes that are met first, on for planes that are met last.
+///
+/// A component of the direction below 1e-18 is taken as that. It moves nothing by more than the second term of the
+/// boxes' padding on the way through the frame, and there are no infinite reciprocals, which would give NaN.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct NodeRay {
-    /// Start for near planes.
+    /// Start for the planes that are met first.
     pub(super) near_origin: [f32; 3],
-    /// Start for far planes.
+    /// Start for the planes that are met last.
     pub(super) far_origin: [f32; 3],
-    /// Reciprocal direction for near planes: finite, no larger than the exact one.
-    pub(super) near_reciprocal: [f32; 3],
-    /// Reciprocal direction for far planes: no smaller than the exact one, infinite for 0. Then a far plane through the
-    /// origin gives 0 * inf = NaN, which the test must ignore.
-    pub(super) far_reciprocal: [f32; 3],
-    /// Place in [`Node::planes`] of the plane that is met first on each axis: the lower or the upper one.
-    pub(super) first_planes: [usize; 3],
+    /// One over the direction.
+    pub(super) reciprocal: [f32; 3],
+    /// Whether the upper plane is met first: 0 or 1.
+    pub(super) backwards: [usize; 3],
 }
+
+/// 8 * 2^-24.
+const SLACK: f32 = 4.0 * f32::EPSILON;
+
+/// The least size of a component of the direction.
+const LEAST: f32 = 1e-18;
 
 impl NodeRay {
     #[inline(always)]
     pub(super) fn new(ray: &LocalRay) -> NodeRay {
-        let (origin, direction) = (ray.origin.to_array(), ray.direction.to_array());
-        let backwards = [0, 1, 2].map(|axis| direction[axis].is_sign_negative());
-        let step = |axis: usize, up: bool| if up { origin[axis].next_up() } else { origin[axis].next_down() };
+        let (o, d) = (ray.origin, ray.direction);
+        let slack = [step(o.x, d.x), step(o.y, d.y), step(o.z, d.z)];
         NodeRay {
-            near_origin: [0, 1, 2].map(|axis| step(axis, !backwards[axis])),
-            far_origin: [0, 1, 2].map(|axis| step(axis, backwards[axis])),
-            near_reciprocal: direction.map(near_reciprocal),
-            far_reciprocal: direction.map(far_reciprocal),
-            first_planes: [0, 1, 2].map(|axis| axis + 3 * usize::from(backwards[axis])),
+            near_origin: [o.x + slack[0], o.y + slack[1], o.z + slack[2]],
+            far_origin: [o.x - slack[0], o.y - slack[1], o.z - slack[2]],
+            reciprocal: [reciprocal(d.x), reciprocal(d.y), reciprocal(d.z)],
+            backwards: [
+                usize::from(d.x.is_sign_negative()),
+                usize::from(d.y.is_sign_negative()),
+                usize::from(d.z.is_sign_negative()),
+            ],
         }
     }
 }
 
-/// Six roundings.
-const SLACK: f32 = 3.0 * f32::EPSILON;
-
-fn near_reciprocal(d: f32) -> f32 {
-    let reciprocal = 1.0 / d;
-    if reciprocal.is_subnormal() {
-        return 0f32.copysign(d);
-    }
-    (reciprocal * (1.0 - SLACK)).clamp(-f32::MAX, f32::MAX)
+/// By how much an origin is moved along the ray.
+#[inline(always)]
+fn step(origin: f32, direction: f32) -> f32 {
+    (origin * SLACK).copysign(direction)
 }
 
-fn far_reciprocal(d: f32) -> f32 {
-    let reciprocal = 1.0 / d;
-    if reciprocal.is_subnormal() {
-        return f32::MIN_POSITIVE.copysign(d);
-    }
-    reciprocal * (1.0 + SLACK)
+#[inline(always)]
+fn reciprocal(direction: f32) -> f32 {
+    1.0 / direction.abs().max(LEAST).copysign(direction)
 }

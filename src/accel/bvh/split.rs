@@ -4,7 +4,7 @@
 use glam::Vec4;
 use rayon::prelude::*;
 
-use super::build::Part;
+use super::build::{Part, Rules};
 
 /// A box in f32; the fourth component means nothing.
 #[derive(Clone, Copy, Debug)]
@@ -76,12 +76,12 @@ pub(super) fn bounds_of(prims: &[PrimRef]) -> (Aabb, Aabb) {
 
 /// Cuts a part in two, neither empty: where the surface area heuristic says, if it is `shaped` and the centres differ,
 /// else in the middle.
-pub(super) fn split<'p>(part: Part<'p>, block: usize, shaped: bool) -> (Part<'p>, Part<'p>) {
-    let plane = if shaped { best_plane(&part, block) } else { None };
+pub(super) fn split<'p>(part: Part<'p>, rules: &Rules, shaped: bool) -> (Part<'p>, Part<'p>) {
+    let plane = if shaped { best_plane(&part, rules) } else { None };
     let Part { prims, start, centroids, .. } = part;
     let (middle, [left, right]) = match plane {
         Some(plane) => partition(prims, |prim| plane.is_left(prim)),
-        None => halve(prims, centroids, block),
+        None => halve(prims, centroids, rules.block),
     };
     let (left_prims, right_prims) = prims.split_at_mut(middle);
     (
@@ -113,15 +113,19 @@ struct Binning {
 }
 
 impl Binning {
-    fn new(centroids: Aabb, count: usize) -> Binning {
+    fn new(centroids: Aabb, count: usize, hasty: bool) -> Binning {
         let bins = (8 + count / 8).min(MAX_BINS);
         // A little less than the number of bins, so that the last centre falls into the last bin.
         let reach = bins as f32 * (1.0 - 4.0 * f32::EPSILON);
         let size = centroids.high - centroids.low;
-        let scale = size.to_array().map(|size| {
+        let mut scale = size.to_array().map(|size| {
             let scale = reach / size;
             if scale.is_finite() { scale } else { 0.0 }
         });
+        if hasty {
+            let longest = longest_axis(size);
+            (0..3).filter(|&axis| axis != longest).for_each(|axis| scale[axis] = 0.0);
+        }
         Binning { origin: centroids.low, scale: Vec4::new(scale[0], scale[1], scale[2], 0.0), bins }
     }
 
@@ -134,7 +138,7 @@ impl Binning {
         let mut bins = [[EMPTY_BIN; MAX_BINS]; 3];
         for prim in prims {
             let places = self.bins_of(prim);
-            for axis in 0..3 {
+            for axis in (0..3).filter(|&axis| self.scale[axis] != 0.0) {
                 let bin = &mut bins[axis][places[axis]];
                 bin.bounds = bin.bounds.union(prim.bounds());
                 bin.count += 1;
@@ -158,8 +162,8 @@ impl Plane {
 }
 
 /// The cheapest cut, `None` if all centres agree.
-fn best_plane(part: &Part, block: usize) -> Option<Plane> {
-    let binning = Binning::new(part.centroids, part.prims.len());
+fn best_plane(part: &Part, rules: &Rules) -> Option<Plane> {
+    let binning = Binning::new(part.centroids, part.prims.len(), rules.hasty);
     let bins = if part.prims.len() <= CHUNK {
         binning.fill(part.prims)
     } else {
@@ -172,7 +176,7 @@ fn best_plane(part: &Part, block: usize) -> Option<Plane> {
         if binning.scale[axis] == 0.0 {
             continue;
         }
-        let (cost, position) = sweep(&bins[..binning.bins], block);
+        let (cost, position) = sweep(&bins[..binning.bins], rules.block);
         if cost < least {
             least = cost;
             best = Some(Plane { binning, axis, position });
@@ -212,11 +216,52 @@ fn sweep(bins: &[Bin], block: usize) -> (f32, usize) {
     best
 }
 
+fn longest_axis(size: Vec4) -> usize {
+    (1..3).fold(0, |longest, axis| if size[axis] > size[longest] { axis } else { longest })
+}
+
 /// Boxes around primitives and centres, left and right of a cut.
 type Sides = [(Aabb, Aabb); 2];
 
 /// Moves what is left to the front; returns how many those are, and the boxes of both sides.
-fn partition(prims: &mut [PrimRef], is_left: impl Fn(&PrimRef) -> bool) -> (usize, Sides) {
+///
+/// Large arrays in pieces, the same for any number of threads: each brings its own left to the front, and then what is
+/// left behind the common middle is exchanged for what is right before it.
+fn partition(prims: &mut [PrimRef], is_left: impl Fn(&PrimRef) -> bool + Sync) -> (usize, Sides) {
+    if prims.len() <= CHUNK {
+        return partition_chunk(prims, is_left);
+    }
+    let chunks: Vec<_> = prims.par_chunks_mut(CHUNK).map(|chunk| partition_chunk(chunk, &is_left)).collect();
+    let middle = chunks.iter().map(|(left, _)| left).sum();
+    let sides = chunks.iter().fold([(Aabb::EMPTY, Aabb::EMPTY); 2], |sum, (_, sides)| {
+        [0, 1].map(|side| (sum[side].0.union(sides[side].0), sum[side].1.union(sides[side].1)))
+    });
+    let (front, back) = prims.split_at_mut(middle);
+    let starts = (0..chunks.len()).map(|chunk| chunk * CHUNK);
+    let borders: Vec<_> = starts.zip(&chunks).map(|(start, (left, _))| (start, start + left)).collect();
+    // Parts of the front that belong to the right, and of the back that belong to the left, as long together.
+    let mut misplaced = borders.iter().flat_map(|&(start, border)| {
+        let (begin, end) = (border.min(middle), (start + CHUNK).min(middle));
+        (begin < end).then_some(begin..end)
+    });
+    let mut hole = misplaced.next().unwrap_or(0..0);
+    for &(start, border) in borders.iter().filter(|(_, border)| *border > middle) {
+        let mut rest = &mut back[start.max(middle) - middle..border - middle];
+        while !rest.is_empty() {
+            if hole.is_empty() {
+                hole = misplaced.next().unwrap_or(0..0);
+            }
+            let count = rest.len().min(hole.len());
+            let (now, later) = rest.split_at_mut(count);
+            front[hole.start..hole.start + count].swap_with_slice(now);
+            (hole.start, rest) = (hole.start + count, later);
+        }
+    }
+    (middle, sides)
+}
+
+/// [`partition`] on one thread.
+fn partition_chunk(prims: &mut [PrimRef], is_left: impl Fn(&PrimRef) -> bool) -> (usize, Sides) {
     let mut sides = [(Aabb::EMPTY, Aabb::EMPTY); 2];
     let (mut front, mut back) = (0, prims.len());
     let mut add = |side: usize, prim: &PrimRef| {
@@ -238,8 +283,7 @@ fn partition(prims: &mut [PrimRef], is_left: impl Fn(&PrimRef) -> bool) -> (usiz
 
 /// Cuts in the middle of the order along the longest axis, at a whole number of leaves.
 fn halve(prims: &mut [PrimRef], centroids: Aabb, block: usize) -> (usize, Sides) {
-    let size = centroids.high - centroids.low;
-    let axis = (1..3).fold(0, |longest, axis| if size[axis] > size[longest] { axis } else { longest });
+    let axis = longest_axis(centroids.high - centroids.low);
     let middle = (prims.len() / 2).div_ceil(block) * block;
     prims.select_nth_unstable_by(middle, |a, b| {
         a.centroid()[axis].total_cmp(&b.centroid()[axis]).then(a.index().cmp(&b.index()))

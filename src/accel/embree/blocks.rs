@@ -1,22 +1,26 @@
 //! Exact: Embree finds the boxes around blocks of triangles, the shared leaf decides.
 
 use super::scene::{BoundingBox, Device, Queries, Scene, UserGeometry, reach};
-use crate::accel::bvh::triangle_blocks;
+use crate::accel::BuildOptions;
+use crate::accel::bvh::{Instructions, triangle_blocks};
 use crate::error::Result;
-use crate::geometry::{LocalRay, MeshSpace, TriangleBlock, TriangleHit, any_in_block, closest_in_block};
+use crate::geometry::{LocalRay, MeshSpace, ShearedRay, TriangleBlock, TriangleHit};
 use crate::math::{round_down, round_up};
 
 /// A scene of user primitives, each a block of up to eight triangles.
 pub(super) struct Blocks {
     scene: Scene<'static, BlockBoxes>,
     blocks: Vec<TriangleBlock>,
+    instructions: Instructions,
 }
 
 impl Blocks {
-    pub(super) fn build(device: &Device, space: &MeshSpace) -> Result<Blocks> {
-        let boxes = BlockBoxes { blocks: triangle_blocks(space), padding: space.frame.padding() };
+    pub(super) fn build(device: &Device, space: &MeshSpace, options: &BuildOptions) -> Result<Blocks> {
+        let instructions = Instructions::choose(options.isa)?;
+        let boxes =
+            BlockBoxes { blocks: triangle_blocks(space, options.quality), padding: space.frame.padding() };
         let scene = Scene::of_boxes(device, &boxes, boxes.blocks.len())?;
-        Ok(Blocks { scene, blocks: boxes.blocks })
+        Ok(Blocks { scene, blocks: boxes.blocks, instructions })
     }
 
     /// Bytes of the blocks, which are not Embree's.
@@ -25,13 +29,21 @@ impl Blocks {
     }
 
     pub(super) fn closest(&self, ray: &LocalRay) -> Option<TriangleHit> {
-        let mut query = Closest { blocks: &self.blocks, ray, best: None };
+        let mut query = Closest {
+            blocks: &self.blocks,
+            ray: ShearedRay::new(ray),
+            best: None,
+            instructions: self.instructions,
+        };
         self.scene.intersect(ray, &mut query);
         query.best
     }
 
     pub(super) fn any(&self, ray: &LocalRay) -> bool {
-        self.scene.occluded(ray, &mut Any { blocks: &self.blocks, ray })
+        self.scene.occluded(
+            ray,
+            &mut Any { blocks: &self.blocks, ray: ShearedRay::new(ray), instructions: self.instructions },
+        )
     }
 }
 
@@ -42,13 +54,15 @@ struct BlockBoxes {
 
 struct Closest<'q> {
     blocks: &'q [TriangleBlock],
-    ray: &'q LocalRay,
+    ray: ShearedRay<'q>,
     best: Option<TriangleHit>,
+    instructions: Instructions,
 }
 
 struct Any<'q> {
     blocks: &'q [TriangleBlock],
-    ray: &'q LocalRay,
+    ray: ShearedRay<'q>,
+    instructions: Instructions,
 }
 
 impl Queries for BlockBoxes {
@@ -65,12 +79,14 @@ impl UserGeometry for BlockBoxes {
 
     #[inline(always)]
     fn closest(query: &mut Closest<'_>, primitive: u32) -> Option<f32> {
-        closest_in_block(query.blocks.get(primitive as usize)?, query.ray, &mut query.best);
-        query.best.map(|best| reach(best.t))
+        let block = query.blocks.get(primitive as usize)?;
+        let nearer = query.instructions.closest_in_block(block, &query.ray, &mut query.best);
+        if nearer { query.best.map(|best| reach(best.t)) } else { None }
     }
 
     #[inline(always)]
     fn any(query: &mut Any<'_>, primitive: u32) -> bool {
-        query.blocks.get(primitive as usize).is_some_and(|block| any_in_block(block, query.ray))
+        let block = query.blocks.get(primitive as usize);
+        block.is_some_and(|block| query.instructions.any_in_block(block, &query.ray))
     }
 }

@@ -4,7 +4,7 @@
 //! |---|---|---|
 //! | exact | user geometry: boxes around blocks of up to eight triangles (`blocks`) | the shared leaf |
 //! | robust | triangle geometry, `RTC_SCENE_FLAG_ROBUST` (`native`) | Embree chooses the triangle, t, u, v are computed in f64 |
-//! | fast | triangle geometry, high build quality (spatial splits) | the same |
+//! | fast | triangle geometry, with spatial splits unless the fast build is asked for | the same |
 //!
 //! Solids are user geometry of a scene of their own, in their own local space (`solids`), and always exact. Instances are
 //! among them, at every precision: their callback brings the ray into the space of the mesh by the shared routine and
@@ -63,9 +63,10 @@ impl<'g> Embree<'g> {
         let device = Device::new(options.isa)?;
         let build = |space: &'g MeshSpace| {
             Ok(match options.precision {
-                Precision::Exact => Triangles::Exact(Blocks::build(&device, space)?),
-                Precision::Robust => Triangles::Native(NativeTriangles::build(&device, space, true)?),
-                Precision::Fast => Triangles::Native(NativeTriangles::build(&device, space, false)?),
+                Precision::Exact => Triangles::Exact(Blocks::build(&device, space, options)?),
+                Precision::Robust | Precision::Fast => {
+                    Triangles::Native(NativeTriangles::build(&device, space, options)?)
+                }
             })
         };
         let triangles = geometry.spaces.iter().map(build).collect::<Result<Vec<_>>>()?;

@@ -1,6 +1,7 @@
 //! Robust and fast: Embree's own triangle tests choose, and the choice is measured in f64.
 
 use super::scene::{Device, Filter, Queries, Scene};
+use crate::accel::BuildOptions;
 use crate::error::Result;
 use crate::geometry::{LocalRay, MeshSpace, TriangleHit, plane_hit};
 
@@ -11,8 +12,12 @@ pub(super) struct NativeTriangles<'g> {
 }
 
 impl<'g> NativeTriangles<'g> {
-    pub(super) fn build(device: &Device, space: &'g MeshSpace, robust: bool) -> Result<NativeTriangles<'g>> {
-        Ok(NativeTriangles { scene: Scene::of_triangles(device, space, robust)?, space })
+    pub(super) fn build(
+        device: &Device,
+        space: &'g MeshSpace,
+        options: &BuildOptions,
+    ) -> Result<NativeTriangles<'g>> {
+        Ok(NativeTriangles { scene: Scene::of_triangles(device, space, options)?, space })
     }
 
     pub(super) fn closest(&self, ray: &LocalRay) -> Option<TriangleHit> {

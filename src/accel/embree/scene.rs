@@ -5,7 +5,7 @@
 //! was given.
 #![allow(unsafe_code)]
 
-use crate::accel::Isa;
+use crate::accel::{BuildOptions, BvhQuality, Isa, Precision};
 use crate::error::{Error, Result};
 use crate::geometry::{LocalRay, MeshSpace};
 use crate::math::round_up;
@@ -230,7 +230,11 @@ impl<G: UserGeometry> Scene<'_, G> {
 
 impl<'g, F: Filter> Scene<'g, F> {
     /// The scene of the triangles of `space`, whose buffers Embree reads but never writes.
-    pub(super) fn of_triangles(device: &Device, space: &'g MeshSpace, robust: bool) -> Result<Self> {
+    pub(super) fn of_triangles(
+        device: &Device,
+        space: &'g MeshSpace,
+        options: &BuildOptions,
+    ) -> Result<Self> {
         let mesh = device.new_geometry(RTC_GEOMETRY_TYPE_TRIANGLE)?;
         let (vertices, triangles) = (&space.vertices, &space.triangles);
         // The last vertex is padding: Embree loads 16 bytes from each.
@@ -245,10 +249,14 @@ impl<'g, F: Filter> Scene<'g, F> {
             rtcSetGeometryIntersectFilterFunction(mesh.raw, Some(filter_closest::<F>));
             rtcSetGeometryOccludedFilterFunction(mesh.raw, Some(filter_any::<F>));
         }
-        match robust {
-            true => Scene::commit(device, mesh, RTC_SCENE_FLAG_ROBUST, RTC_BUILD_QUALITY_MEDIUM),
-            false => Scene::commit(device, mesh, RTC_SCENE_FLAG_NONE, RTC_BUILD_QUALITY_HIGH),
-        }
+        let robust = options.precision == Precision::Robust;
+        // Without ROBUST the highest quality splits in space and pays; with it, Embree leaves that out.
+        let quality = match options.quality {
+            BvhQuality::Fast => RTC_BUILD_QUALITY_LOW,
+            BvhQuality::Default if robust => RTC_BUILD_QUALITY_MEDIUM,
+            BvhQuality::Default | BvhQuality::Quality => RTC_BUILD_QUALITY_HIGH,
+        };
+        Scene::commit(device, mesh, if robust { RTC_SCENE_FLAG_ROBUST } else { RTC_SCENE_FLAG_NONE }, quality)
     }
 }
 

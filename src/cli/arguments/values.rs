@@ -1,6 +1,6 @@
 //! Values of options: names in tables, numbers in ranges.
 
-use crate::accel::{Isa, Precision};
+use crate::accel::{BvhQuality, Isa, Precision};
 use crate::render::AccelKind;
 use crate::sampling::SamplerKind;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -11,6 +11,9 @@ pub(in crate::cli) const ACCELS: [(&str, AccelKind); 2] =
 /// The names of the precisions.
 pub(in crate::cli) const PRECISIONS: [(&str, Precision); 3] =
     [("exact", Precision::Exact), ("robust", Precision::Robust), ("fast", Precision::Fast)];
+/// The names of the qualities of trees.
+pub(in crate::cli) const BVHS: [(&str, BvhQuality); 3] =
+    [("fast", BvhQuality::Fast), ("default", BvhQuality::Default), ("quality", BvhQuality::Quality)];
 /// The names of the instruction sets.
 pub(in crate::cli) const ISAS: [(&str, Isa); 3] =
     [("sse2", Isa::Sse2), ("avx2", Isa::Avx2), ("avx512", Isa::Avx512)];
