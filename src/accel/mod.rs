@@ -173,11 +173,19 @@ fn is_unit(ray: &Ray) -> bool {
 /// A ray with a direction of any length as one with a unit direction, and that length; `None` if it is not finite or
 /// has no direction.
 fn with_unit_direction(ray: &Ray) -> Option<(Ray, f64)> {
-    // Scaled first: squares of components leave the range of numbers long before the components do.
     let largest = ray.direction.abs().max_element();
     if !ray.is_finite() || largest < f64::MIN_POSITIVE {
         return None;
     }
+    // A unit direction times a power of two loses no bit on the way back.
+    let exponent = libm::ilogb(largest);
+    for length in [exponent, exponent + 1].map(|exponent| libm::ldexp(1.0, exponent)) {
+        let scaled = Ray { direction: ray.direction / length, ..*ray };
+        if length.is_finite() && is_unit(&scaled) {
+            return Some((scaled, length));
+        }
+    }
+    // Scaled first: squares of components leave the range of numbers long before the components do.
     let scaled = ray.direction / largest;
     let length = scaled.length();
     Some((Ray { direction: scaled / length, ..*ray }, largest * length))
