@@ -14,7 +14,7 @@ pub use memory::film_bytes;
 use crate::accel::bvh::Bvh;
 #[cfg(feature = "embree")]
 use crate::accel::embree::Embree;
-use crate::accel::{Accelerator, BuildOptions, BvhQuality, Isa, Precision};
+use crate::accel::{Accelerator, BuildOptions, BvhQuality, Isa, Precision, check_isa};
 use crate::error::{Error, Result};
 use crate::film::Film;
 use crate::integrator::{Counters, PathTracer};
@@ -157,6 +157,7 @@ impl Settings {
         if self.accel == AccelKind::Embree && !cfg!(feature = "embree") {
             return Err(no_embree());
         }
+        check_isa(self.isa)?;
         memory::check(self)
     }
 

@@ -9,6 +9,7 @@ pub mod bvh;
 #[cfg(feature = "embree")]
 pub mod embree;
 
+use crate::error::Result;
 use crate::geometry::{Geometry, Hit, LocalRay, PrimitiveId, Ray, Shape, TriangleHit};
 
 /// How hits of mesh triangles are found. Solids are exact at every precision.
@@ -57,6 +58,14 @@ pub struct BuildOptions {
     pub isa: Option<Isa>,
     /// How the tree is built.
     pub quality: BvhQuality,
+}
+
+/// Whether this machine has the instructions asked for.
+///
+/// # Errors
+/// [`crate::error::Error::Usage`] with the best that it has.
+pub fn check_isa(isa: Option<Isa>) -> Result<()> {
+    bvh::Instructions::choose(isa).map(|_| ())
 }
 
 /// Answers for rays; see [`crate::geometry`] for what a hit is.
@@ -193,11 +202,19 @@ fn is_unit(ray: &Ray) -> bool {
 /// A ray with a direction of any length as one with a unit direction, and that length; `None` if it is not finite or
 /// has no direction.
 fn with_unit_direction(ray: &Ray) -> Option<(Ray, f64)> {
-    // Scaled first: squares of components leave the range of numbers long before the components do.
     let largest = ray.direction.abs().max_element();
     if !ray.is_finite() || largest < f64::MIN_POSITIVE {
         return None;
     }
+    // A unit direction times a power of two loses no bit on the way back.
+    let exponent = libm::ilogb(largest);
+    for length in [exponent, exponent + 1].map(|exponent| libm::ldexp(1.0, exponent)) {
+        let scaled = Ray { direction: ray.direction / length, ..*ray };
+        if length.is_finite() && is_unit(&scaled) {
+            return Some((scaled, length));
+        }
+    }
+    // Scaled first: squares of components leave the range of numbers long before the components do.
     let scaled = ray.direction / largest;
     let length = scaled.length();
     Some((Ray { direction: scaled / length, ..*ray }, largest * length))

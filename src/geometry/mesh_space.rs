@@ -128,8 +128,14 @@ impl MeshSpace {
         let local = a + ab * u + ac * v;
         let size = a.abs() + ab.abs() + ac.abs();
         // Edges of f32 numbers in [2^-149, 2]: their products do not underflow in f64.
-        let normal = ab.cross(ac).normalize();
-        let error = (self.frame.pivot.abs() + size * self.frame.inverse_scale) * ROUNDINGS;
+        let across = ab.cross(ac);
+        let normal = across.normalize();
+        // The products of the normal that accelerators use, and those with the way from the first corner, are rounded 8
+        // times; of a thin triangle they nearly cancel, and its plane is found so far from here.
+        let (b, c) = (ab.abs(), ac.abs());
+        let products = DVec3::new(b.y * c.z + b.z * c.y, b.z * c.x + b.x * c.z, b.x * c.y + b.y * c.x);
+        let lean = normal.abs() * (products.dot(b * u + c * v) / across.length());
+        let error = (self.frame.pivot.abs() + (size + lean) * self.frame.inverse_scale) * ROUNDINGS;
         SurfacePoint::of_sheet(self.frame.to_world(local), normal, error)
     }
 
@@ -139,15 +145,18 @@ impl MeshSpace {
     }
 }
 
-/// The component-wise lower median: robust against a few far triangles.
+/// The component-wise median: robust against a few far triangles. Of an even number of corners it lies between the two in
+/// the middle, so that it is in the mirror where the mesh is.
 fn median<I: Iterator<Item = DVec3>>(points: impl Fn() -> I) -> DVec3 {
     let component = |axis: usize| {
         let mut values: Vec<f64> = points().map(|p| p[axis]).collect();
         if values.is_empty() {
             return 0.0;
         }
-        let middle = (values.len() - 1) / 2;
-        *values.select_nth_unstable_by(middle, f64::total_cmp).1
+        let (middle, is_even) = (values.len() / 2, values.len().is_multiple_of(2));
+        let (below, &mut upper, _) = values.select_nth_unstable_by(middle, f64::total_cmp);
+        let lower = if is_even { below.iter().copied().fold(f64::NEG_INFINITY, f64::max) } else { upper };
+        lower * 0.5 + upper * 0.5
     };
     DVec3::new(component(0), component(1), component(2))
 }

@@ -16,7 +16,7 @@ fn from_inside(scene: &TestScene, aim: Aim, count: usize) -> Vec<Ray> {
     (0..count)
         .map(|_| {
             let origin = scene.center + random.in_cube() * (0.3 * scene.size);
-            Ray::new(origin, (target(scene, aim, &mut random) - origin).normalize())
+            Ray::new(origin, (target(scene, aim, origin, &mut random) - origin).normalize())
         })
         .collect()
 }

@@ -3,6 +3,7 @@
 //! Seeds are fixed; cases that failed once stand in the `.regressions` files beside the tests and are tried first.
 
 mod frame;
+mod instance;
 mod solids;
 mod triangle;
 

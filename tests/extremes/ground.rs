@@ -24,15 +24,16 @@ fn ground(radius: f64) -> Geometry {
     Geometry::new(vec![Solid { object: 0, shape: Shape::Ball(ball) }], &[])
 }
 
-/// Directions from straight down to 99.9 % of the way to the horizon, in a vertical plane.
+/// Directions to points of the ground in a vertical plane, in equal steps of the horizontal distance, from straight down to
+/// 99.9 % of the distance of the horizon.
 fn column(radius: f64, azimuth: f64) -> Vec<Ray> {
     let (sin, cos) = libm::sincos(azimuth);
-    let horizon = libm::acos(radius / (radius + EYE));
+    // Where a line from the eye touches the ball.
+    let horizon = radius * libm::sqrt(EYE * (2.0 * radius + EYE)) / (radius + EYE);
     let ray = |row: u32| {
-        let down = std::f64::consts::FRAC_PI_2 - horizon;
-        let from_nadir = 0.999 * down * f64::from(row) / f64::from(ROWS - 1);
-        let (s, c) = libm::sincos(from_nadir);
-        Ray::new(DVec3::new(0.0, 0.0, EYE), DVec3::new(s * cos, s * sin, -c))
+        let x = 0.999 * horizon * f64::from(row) / f64::from(ROWS - 1);
+        let depth = x * x / (radius + libm::sqrt((radius - x) * (radius + x)));
+        Ray::new(DVec3::new(0.0, 0.0, EYE), DVec3::new(x * cos, x * sin, -depth - EYE).normalize())
     };
     (0..ROWS).map(ray).collect()
 }

@@ -9,12 +9,16 @@ mod geometry;
 mod ground;
 mod guards;
 mod lights;
+mod nothing;
 mod odd_rays;
+mod oracle;
+mod radiance;
 mod refraction;
 mod reintersection;
 mod room;
 mod scale;
 mod slivers;
+mod symmetry;
 mod ties;
 mod watertight;
 

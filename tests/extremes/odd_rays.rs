@@ -3,7 +3,7 @@
 use super::accelerators;
 use crate::support::compare::assert_identical;
 use crate::support::random::Random;
-use crate::support::scenes::{TestScene, scene};
+use crate::support::scenes::{KINDS, TestScene, scene};
 use pathtracer::accel::brute_force::BruteForce;
 use pathtracer::accel::{Accelerator, Precision};
 use pathtracer::geometry::{PrimitiveId, Ray, Shape};
@@ -14,17 +14,18 @@ const COUNT: usize = 20_000;
 const ALL: usize = 100_000;
 
 /// A place in or on the scene: a corner, on an edge or on a face of a mesh, a corner or a face of a box, the outline of
-/// a ball.
+/// a rectangle, the surface of a ball, the origin of an instance.
 fn place(scene: &TestScene, random: &mut Random) -> DVec3 {
     let part = &scene.parts[random.index(scene.parts.len())];
     let [a, b, c] =
         part.triangles[random.index(part.triangles.len())].map(|corner| part.positions[corner as usize]);
     let (u, v) = (random.unit(), random.unit());
-    match random.index(5) {
+    let solids = &scene.geometry.solids;
+    match random.index(if solids.is_empty() { 3 } else { 5 }) {
         0 => a,
         1 => a.lerp(b, u),
         2 => a + (b - a) * (u * (1.0 - v)) + (c - a) * (u * v),
-        _ => match scene.geometry.solids[random.index(scene.geometry.solids.len())].shape {
+        _ => match solids[random.index(solids.len())].shape {
             Shape::Ball(ball) => ball.center + random.direction() * ball.radius,
             Shape::Rectangle(rectangle) => rectangle.center + rectangle.offset_at(u.round(), v),
             Shape::Cuboid(cuboid) => {
@@ -44,12 +45,12 @@ fn of_components(components: &[f64], random: &mut Random) -> DVec3 {
     DVec3::new(pick(), pick(), pick())
 }
 
-fn assert_odd(what: &str, count: usize, direction: impl Fn(&mut Random) -> DVec3) {
-    let scene = scene("mixed", DVec3::ZERO);
+fn assert_odd(scene: &TestScene, what: &str, count: usize, direction: impl Fn(&mut Random) -> DVec3) {
+    let what = format!("{}, {what}", scene.name);
     let mut random = Random::new(141);
     let rays: Vec<Ray> = (0..count)
         .map(|i| {
-            let at = place(&scene, &mut random);
+            let at = place(scene, &mut random);
             let direction = direction(&mut random);
             // On the surface, and on the way to it.
             let back = if i % 2 == 0 { DVec3::ZERO } else { direction.normalize_or_zero() };
@@ -73,23 +74,32 @@ fn assert_odd(what: &str, count: usize, direction: impl Fn(&mut Random) -> DVec3
     }
 }
 
-fn all_kinds(count: usize) {
-    assert_odd("zeros", count, |random| of_components(&[0.0, -0.0, 1.0, -1.0], random));
-    assert_odd("1e-30", count, |random| of_components(&[1e-30, -1e-30, 1.0, -0.5, 0.0], random));
-    assert_odd("1e30", count, |random| of_components(&[1e30, -1e30, 1.0, 1e-30], random));
-    assert_odd("not unit", count, |random| random.direction() * libm::exp2(random.between(-60.0, 60.0)));
-    assert_odd("ordinary", count, Random::direction);
+fn all_kinds(scene: &TestScene, count: usize) {
+    let odd = |what: &str, components: &[f64]| {
+        assert_odd(scene, what, count, |random| of_components(components, random));
+    };
+    odd("zeros", &[0.0, -0.0, 1.0, -1.0]);
+    odd("1e-30", &[1e-30, -1e-30, 1.0, -0.5, 0.0]);
+    odd("1e30", &[1e30, -1e30, 1.0, 1e-30]);
+    let any_length = |random: &mut Random| random.direction() * libm::exp2(random.between(-60.0, 60.0));
+    assert_odd(scene, "not unit", count, any_length);
+    assert_odd(scene, "ordinary", count, Random::direction);
 }
 
 #[test]
 fn unusual_rays_get_the_hits_of_brute_force() {
-    all_kinds(COUNT);
+    all_kinds(&scene("mixed", DVec3::ZERO), COUNT);
+    for kind in KINDS {
+        all_kinds(&scene(kind, DVec3::ZERO), COUNT / 20);
+    }
 }
 
 #[test]
-#[ignore = "long: 100,000 rays of each kind by brute force; run by `cargo test --release -- --ignored`"]
+#[ignore = "long: 100,000 rays of each kind in each scene by brute force; run by `cargo test --release -- --ignored`"]
 fn a_hundred_thousand_unusual_rays_of_each_kind_get_the_hits_of_brute_force() {
-    all_kinds(ALL);
+    for kind in KINDS {
+        all_kinds(&scene(kind, DVec3::ZERO), ALL);
+    }
 }
 
 #[test]

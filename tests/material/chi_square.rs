@@ -80,6 +80,7 @@ fn clear_coats_have_their_density() {
 #[test]
 #[ignore = "20 seconds: the same with more samples"]
 fn lobes_have_their_density_in_more_samples() {
+    check(&diffuse(), 0.0, MANY_SAMPLES, ANGLES.len());
     check_lerp_lobes(SPECULARITIES.into_iter(), MANY_SAMPLES);
     check_clear_coats(MANY_SAMPLES);
 }

@@ -1,8 +1,9 @@
-//! What several topics share: random numbers, meshes, scenes, rays, statistics, and the comparison of two accelerators.
+//! What several topics share: random numbers, meshes, scenes, rays, exact arithmetic, statistics, and the comparison of two accelerators.
 
 pub(crate) mod build;
 pub(crate) mod compare;
 pub(crate) mod double_double;
+pub(crate) mod exact;
 pub(crate) mod meshes;
 pub(crate) mod random;
 pub(crate) mod rays;

@@ -16,8 +16,12 @@ pub(crate) struct TestScene {
     pub(crate) center: DVec3,
     /// Half of the scene's extent.
     pub(crate) size: f64,
-    /// The meshes; corners and edges are targets.
+    /// The meshes as they are seen; corners and edges are targets.
     pub(crate) parts: Vec<MeshPart>,
+    /// How many of `parts`, the first ones, lie in the world; instances show the others.
+    pub(crate) in_world: usize,
+    /// The meshes that have instances, in coordinates of their own.
+    pub(crate) shared: Vec<MeshPart>,
 }
 
 impl TestScene {
@@ -33,7 +37,8 @@ impl TestScene {
         center: DVec3,
         size: f64,
     ) -> TestScene {
-        TestScene { name, geometry: Geometry::new(solids, &parts), center, size, parts }
+        let (geometry, in_world) = (Geometry::new(solids, &parts), parts.len());
+        TestScene { name, geometry, center, size, parts, in_world, shared: Vec::new() }
     }
 }
 
@@ -83,37 +88,51 @@ pub(crate) fn on_a_large_ball() -> TestScene {
     TestScene::new("on a large ball", vec![ground], vec![mesh], DVec3::ZERO, 1.0)
 }
 
-/// Turned, scaled and mirrored instances of two meshes among balls, boxes and rectangles and a mesh that lies in the
-/// world. The last instance is the first once more.
+/// Meshes to be shown: of sizes of 3e-4 to 100, one of them far from the origin of its own coordinates. With each the scale
+/// that makes it a tenth of the scene.
+fn shared_meshes() -> [(MeshPart, f64); 4] {
+    let sized = |mut mesh: MeshPart, size: f64| {
+        mesh.positions.iter_mut().for_each(|p| *p *= size);
+        (mesh, 0.1 / size)
+    };
+    [
+        sized(meshes::sphere(1.0, 12, 0.2, 11), 1.0),
+        (meshes::moved(meshes::soup(100, 0.5, 12), FAR), 0.1),
+        sized(meshes::sphere(1.0, 12, 0.1, 14), 3e-4),
+        sized(meshes::soup(60, 0.6, 15), 100.0),
+    ]
+}
+
+/// Turned and mirrored instances of four meshes, 1e-3 to 1e3 times as large as those, among balls, boxes and rectangles and
+/// a mesh that lies in the world. The last instance is the first once more.
 fn instances(center: DVec3) -> TestScene {
     let mut random = Random::new(10);
-    let meshes = [meshes::sphere(1.0, 12, 0.2, 11), meshes::moved(meshes::soup(100, 0.5, 12), FAR)];
-    let spaces = meshes.iter().map(|mesh| MeshSpace::new(vec![mesh.clone()])).collect::<Vec<_>>();
+    let meshes = shared_meshes();
+    let spaces = meshes.iter().map(|(mesh, _)| MeshSpace::new(vec![mesh.clone()])).collect::<Vec<_>>();
     let mut parts = vec![MeshPart { object: 0, ..meshes::moved(meshes::terrain(8, 0.2, 13), center) }];
     let mut solids = Vec::new();
-    for object in 1..=40 {
+    for object in 1..=50 {
         let place = center + random.in_cube();
-        if object % 4 == 0 {
-            solids.push(Solid { object, shape: solid(object / 4, place, &mut random) });
+        if object % 5 == 0 {
+            solids.push(Solid { object, shape: solid(object / 5, place, &mut random) });
             continue;
         }
-        let mesh = object % 2;
+        let mesh = object % 5 - 1;
         let (x, y) = axes(&mut random);
         let mirror = if random.unit() < 0.3 { -1.0 } else { 1.0 };
         let rotation = DMat3::from_cols(x, y, x.cross(y) * mirror);
-        let scale = random.between(0.1, 0.3);
-        // The second mesh lies far from the origin of its own coordinates.
+        let (MeshPart { positions, triangles, .. }, scale) = &meshes[mesh as usize];
+        let scale = scale * random.between(1.0, 3.0);
         let offset = if mesh == 1 { rotation * FAR * scale } else { DVec3::ZERO };
         let instance = Instance::new(mesh, &spaces[mesh as usize], rotation, scale, place - offset);
-        let seen = |&p: &DVec3| instance.to_world(p);
-        let MeshPart { positions, triangles, .. } = &meshes[mesh as usize];
-        let positions = positions.iter().map(seen).collect();
+        let positions = positions.iter().map(|&p| instance.to_world(p)).collect();
         parts.push(MeshPart { object, positions, triangles: triangles.clone() });
         solids.push(Solid { object, shape: Shape::Instance(instance) });
     }
-    solids.push(Solid { object: 41, ..solids[0] });
+    solids.push(Solid { object: 51, ..solids[0] });
     let geometry = Geometry::with_instances(solids, parts[..1].to_vec(), spaces);
-    TestScene { name: "instances", geometry, center, size: 1.0, parts }
+    let shared = meshes.map(|(mesh, _)| mesh).to_vec();
+    TestScene { name: "instances", geometry, center, size: 1.0, parts, in_world: 1, shared }
 }
 
 /// Two unit vectors at a right angle.

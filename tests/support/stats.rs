@@ -107,6 +107,17 @@ impl Moments {
         moments
     }
 
+    /// Of both samples together (Chan, Golub, LeVeque 1979).
+    pub(crate) fn with(self, other: Moments) -> Moments {
+        let count = self.count + other.count;
+        if count == 0 {
+            return self;
+        }
+        let (share, apart) = (other.count as f64 / count as f64, other.mean - self.mean);
+        let between = apart * apart * share * self.count as f64;
+        Moments { count, mean: self.mean + apart * share, squares: self.squares + other.squares + between }
+    }
+
     pub(crate) fn mean(&self) -> f64 {
         self.mean
     }
@@ -159,4 +170,14 @@ fn chi_square_pools_small_cells_and_refuses_impossible_ones() {
     // Pooled: 20 of 20 expected, 6 of 6 expected.
     assert_eq!(chi_square(&[20, 0, 6, 0, 0], &[20.0, 2.0, 2.0, 2.0, 0.0]), 1.0);
     assert!(chi_square(&[200, 100], &[150.0, 150.0]) < 1e-7);
+}
+
+#[test]
+fn moments_of_parts_are_those_of_the_whole() {
+    let values: Vec<f64> = (0..1000).map(|i| f64::from(i * i % 97)).collect();
+    let whole = Moments::of(values.iter().copied());
+    let parts = values.chunks(300).map(|part| Moments::of(part.iter().copied()));
+    let joined = parts.fold(Moments::default(), Moments::with);
+    assert!((joined.mean() - whole.mean()).abs() < 1e-12 * whole.mean());
+    assert!((joined.variance() - whole.variance()).abs() < 1e-12 * whole.variance());
 }

@@ -1,6 +1,7 @@
 //! Furnaces: what a surface reflects of a uniform world, known without sampling.
 
 use crate::support::build::*;
+use crate::support::meshes;
 use pathtracer::math::DVec3;
 use pathtracer::scene::desc::{MaterialKind, ShapeDesc};
 
@@ -59,9 +60,13 @@ fn white_glass_under_a_white_sky_is_one_or_cut() {
 /// Inside a closed body with Le = 1 - rho the light after N segments is 1 - rho^N.
 #[test]
 fn closed_furnaces_reach_one_minus_the_cut_rest() {
-    let shapes =
-        [ball(DVec3::ZERO, 1.0), cuboid(DVec3::ZERO, DVec3::new(1.0, 2.0, 3.0), DVec3::new(0.0, 0.0, 17.0))];
-    for shape in shapes {
+    let part = meshes::sphere(1.0, 8, 0.1, 5);
+    let shapes = [
+        ball(DVec3::ZERO, 1.0),
+        cuboid(DVec3::ZERO, DVec3::new(1.0, 2.0, 3.0), DVec3::new(0.0, 0.0, 17.0)),
+        mesh(part.positions.iter().map(DVec3::to_array).collect(), part.triangles),
+    ];
+    for (name, shape) in ["ball", "box", "mesh"].into_iter().zip(shapes) {
         for rho in [0.1, 0.5, 0.9, 0.99] {
             for bounces in [1, 2, 5, 16] {
                 let body = (shape.clone(), glowing(grey(rho), grey(1.0 - rho)));
@@ -69,8 +74,7 @@ fn closed_furnaces_reach_one_minus_the_cut_rest() {
                 let expected = 1.0 - f64::powi(rho, bounces);
                 for light_sampling in [false, true] {
                     let measure = Measure { samples: 20_000, bounces: bounces as u32, light_sampling };
-                    let what =
-                        format!("{shape:?} rho {rho} bounces {bounces} light sampling {light_sampling}");
+                    let what = format!("{name} rho {rho} bounces {bounces} light sampling {light_sampling}");
                     assert_mean(&what, &desc, &measure, expected, 1e-2);
                 }
             }

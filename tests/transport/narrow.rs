@@ -2,7 +2,7 @@
 
 use super::furnace::{EYE, convex_shapes, opaque_white};
 use crate::support::build::*;
-use crate::support::stats::Moments;
+use crate::support::meshes;
 use pathtracer::math::DVec3;
 use pathtracer::scene::desc::{SceneDesc, ShapeDesc};
 
@@ -16,7 +16,7 @@ fn assert_narrow(
     width: f64,
 ) {
     let pilot = Measure { samples: 50_000, bounces, light_sampling };
-    let variance = Moments::of(samples(desc, &pilot)).variance();
+    let variance = moments(desc, &pilot).variance();
     let needed = 1.5 * variance / (width * expected * width * expected);
     assert!(needed < 1e8, "{what}: {needed:e} samples");
     let measure = Measure { samples: (needed as u64).max(50_000), ..pilot };
@@ -24,13 +24,13 @@ fn assert_narrow(
 }
 
 /// A closed body that a camera looks around in; [`super::furnace`] has the expected mean.
-fn closed_furnace(shape: ShapeDesc, light_sampling: bool) {
+fn closed_furnace(name: &str, shape: ShapeDesc, light_sampling: bool) {
     for rho in [0.1, 0.5, 0.9, 0.99] {
-        for bounces in [5, 16] {
+        for bounces in [1, 2, 5, 16] {
             let body = (shape.clone(), glowing(grey(rho), grey(1.0 - rho)));
             let desc = scene(DVec3::new(0.1, 0.2, 0.3), DVec3::new(0.4, 0.1, -0.2), vec![body]);
             let expected = 1.0 - f64::powi(rho, bounces);
-            let what = format!("{shape:?} rho {rho} bounces {bounces}");
+            let what = format!("{name} rho {rho} bounces {bounces}");
             assert_narrow(&what, &desc, bounces as u32, light_sampling, expected, 1e-4);
         }
     }
@@ -40,23 +40,41 @@ fn turned_box() -> ShapeDesc {
     cuboid(DVec3::ZERO, DVec3::new(1.0, 2.0, 3.0), DVec3::new(0.0, 0.0, 17.0))
 }
 
+/// A closed mesh of 180 triangles around the camera.
+fn closed_mesh() -> ShapeDesc {
+    let part = meshes::sphere(1.0, 14, 0.1, 5);
+    mesh(part.positions.iter().map(DVec3::to_array).collect(), part.triangles)
+}
+
 /// From inside a ball is never aimed at, so light sampling would be the same.
 #[test]
 #[ignore = "minutes"]
 fn a_closed_ball_to_a_standard_error_of_1e_4() {
-    closed_furnace(ball(DVec3::ZERO, 1.0), false);
+    closed_furnace("ball", ball(DVec3::ZERO, 1.0), false);
 }
 
 #[test]
 #[ignore = "minutes"]
 fn a_closed_box_to_a_standard_error_of_1e_4() {
-    closed_furnace(turned_box(), false);
+    closed_furnace("box", turned_box(), false);
 }
 
 #[test]
 #[ignore = "minutes"]
 fn a_closed_box_with_light_sampling_to_a_standard_error_of_1e_4() {
-    closed_furnace(turned_box(), true);
+    closed_furnace("box", turned_box(), true);
+}
+
+#[test]
+#[ignore = "minutes"]
+fn a_closed_mesh_to_a_standard_error_of_1e_4() {
+    closed_furnace("mesh", closed_mesh(), false);
+}
+
+#[test]
+#[ignore = "minutes"]
+fn a_closed_mesh_with_light_sampling_to_a_standard_error_of_1e_4() {
+    closed_furnace("mesh", closed_mesh(), true);
 }
 
 #[test]

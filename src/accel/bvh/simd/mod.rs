@@ -18,7 +18,9 @@ use super::node::{Node, NodeRay};
 use super::traverse::{self, Leaf};
 use crate::accel::Isa;
 use crate::error::{Error, Result};
-use crate::geometry::{Lanes, ShearedRay, TriangleBlock, TriangleHit, any_in_lanes, closest_in_lanes};
+use crate::geometry::Lanes;
+#[cfg(feature = "embree")]
+use crate::geometry::{ShearedRay, TriangleBlock, TriangleHit, any_in_lanes, closest_in_lanes};
 
 /// An instruction set that this machine has; can only be had from [`Instructions::choose`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,7 +71,11 @@ impl Instructions {
             Isa::Avx512 => unsafe { any_avx512(nodes, ray, leaf) },
         }
     }
+}
 
+/// The shared leaf alone, for Embree's callbacks.
+#[cfg(feature = "embree")]
+impl Instructions {
     /// [`closest_in_lanes`] in these instructions.
     #[inline]
     pub(in crate::accel) fn closest_in_block(
@@ -98,12 +104,14 @@ impl Instructions {
     }
 }
 
+#[cfg(feature = "embree")]
 #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
 fn closest_in_avx2(block: &TriangleBlock, ray: &ShearedRay, best: &mut Option<TriangleHit>) -> bool {
     // SAFETY: this function is only called where there is AVX2.
     closest_in_lanes(block, ray, best, unsafe { Avx2::new() })
 }
 
+#[cfg(feature = "embree")]
 #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
 fn any_in_avx2(block: &TriangleBlock, ray: &ShearedRay) -> bool {
     // SAFETY: this function is only called where there is AVX2.
