@@ -255,7 +255,7 @@ impl Run<'_> {
     fn with_accel<A: Accelerator>(&self, build: impl Fn(&BuildOptions) -> Result<A>) -> Result<Rendered> {
         let start = Instant::now();
         let Settings { precision, isa, bvh: quality, .. } = *self.settings;
-        let accel = build(&BuildOptions { precision, isa, quality })?;
+        let accel = build(&BuildOptions { precision, isa, quality, ..BuildOptions::default() })?;
         let build_seconds = start.elapsed().as_secs_f64();
         let rendered = match self.settings.sampler {
             SamplerKind::Sobol => self.with_sampler(&accel, Sobol::new(self.settings.seed)),

@@ -8,6 +8,10 @@ pub mod brute_force;
 pub mod bvh;
 #[cfg(feature = "embree")]
 pub mod embree;
+mod fault;
+
+#[doc(hidden)]
+pub use fault::Fault;
 
 use crate::error::Result;
 use crate::geometry::{Geometry, Hit, LocalRay, PrimitiveId, Ray, Shape, TriangleHit};
@@ -58,6 +62,9 @@ pub struct BuildOptions {
     pub isa: Option<Isa>,
     /// How the tree is built.
     pub quality: BvhQuality,
+    /// What is to be broken, for the tests of the tests; nothing is by default.
+    #[doc(hidden)]
+    pub fault: Option<Fault>,
 }
 
 /// Whether this machine has the instructions asked for.

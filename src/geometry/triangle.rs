@@ -151,6 +151,15 @@ impl TriangleBlock {
         self.indices[lane]
     }
 
+    /// The block without the triangle in a lane.
+    pub(crate) fn without(&self, lane: usize) -> TriangleBlock {
+        let kept = self.indices().enumerate().filter(|&(other, _)| other != lane);
+        TriangleBlock::new(kept.map(|(other, index)| {
+            let corners = self.corners_of(other).map(|corner| corner.as_vec3().to_array());
+            (index, corners)
+        }))
+    }
+
     /// The corners of the triangle in a lane below 8, exactly.
     #[inline(always)]
     pub(crate) fn corners_of(&self, lane: usize) -> [DVec3; 3] {

@@ -23,6 +23,7 @@ use self::leaf::{ExactTriangles, Solids};
 use self::node::{Node, NodeRay};
 pub(super) use self::simd::Instructions;
 use self::split::PrimRef;
+use super::fault::Fault;
 use super::{BuildOptions, BvhQuality, Isa, Kernel, Precision};
 use crate::error::Result;
 use crate::geometry::{
@@ -57,6 +58,13 @@ impl TriangleTree {
         TriangleTree { nodes: tree.nodes, blocks }
     }
 
+    fn spoil(&mut self, fault: Fault) {
+        fault.spoil(&mut self.blocks);
+        if fault == Fault::Padding {
+            self.nodes.iter_mut().for_each(Node::shrink);
+        }
+    }
+
     fn bytes(&self) -> usize {
         size_of_val(&self.nodes[..]) + size_of_val(&self.blocks[..])
     }
@@ -67,7 +75,11 @@ impl<'g> Bvh<'g> {
     /// [`crate::error::Error::Usage`] if the machine lacks the instruction set asked for.
     pub fn build(geometry: &'g Geometry, options: &BuildOptions) -> Result<Bvh<'g>> {
         let instructions = Instructions::choose(options.isa)?;
-        let over = |space| TriangleTree::over(space, options.quality);
+        let over = |space| {
+            let mut tree = TriangleTree::over(space, options.quality);
+            options.fault.into_iter().for_each(|fault| tree.spoil(fault));
+            tree
+        };
         let triangles = geometry.spaces.iter().map(over).collect();
         let solids = solid_tree(geometry);
         // One solid a leaf: the leaf's index is the place in the order.

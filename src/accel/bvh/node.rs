@@ -1,6 +1,7 @@
 //! The node of the tree: the boxes of up to eight children, structure of arrays, and the ray that is tried against
 //! them.
 
+use crate::accel::fault::SHRINK;
 use crate::geometry::LocalRay;
 
 /// Children of a node.
@@ -87,6 +88,17 @@ impl Node {
     pub(super) fn planes_along(&self, axis: usize, backwards: usize) -> (&[f32; WIDTH], &[f32; WIDTH]) {
         let planes = &self.planes[axis];
         (&planes[backwards & 1], &planes[(backwards & 1) ^ 1])
+    }
+
+    /// Makes the boxes too small, as [`crate::accel::Fault::Padding`] has it.
+    pub(super) fn shrink(&mut self) {
+        for [low, high] in &mut self.planes {
+            for lane in (0..WIDTH).filter(|&lane| self.children[lane] != Child::NONE) {
+                let by = (high[lane] - low[lane]) * SHRINK;
+                low[lane] += by;
+                high[lane] -= by;
+            }
+        }
     }
 
     /// Lower and upper corner of a lane's box.

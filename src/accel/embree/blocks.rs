@@ -3,6 +3,7 @@
 use super::scene::{BoundingBox, Device, Queries, Scene, UserGeometry, reach};
 use crate::accel::BuildOptions;
 use crate::accel::bvh::{Instructions, triangle_blocks};
+use crate::accel::fault::{Fault, SHRINK};
 use crate::error::Result;
 use crate::geometry::{LocalRay, MeshSpace, ShearedRay, TriangleBlock, TriangleHit};
 use crate::math::{round_down, round_up};
@@ -17,8 +18,14 @@ pub(super) struct Blocks {
 impl Blocks {
     pub(super) fn build(device: &Device, space: &MeshSpace, options: &BuildOptions) -> Result<Blocks> {
         let instructions = Instructions::choose(options.isa)?;
-        let boxes =
-            BlockBoxes { blocks: triangle_blocks(space, options.quality), padding: space.frame.padding() };
+        let mut blocks = triangle_blocks(space, options.quality);
+        let mut padding = space.frame.padding();
+        if let Some(fault) = options.fault {
+            fault.spoil(&mut blocks);
+            // Of the frame, whose size is 1 to 2.
+            padding = if fault == Fault::Padding { -f64::from(SHRINK) } else { padding };
+        }
+        let boxes = BlockBoxes { blocks, padding };
         let scene = Scene::of_boxes(device, &boxes, boxes.blocks.len())?;
         Ok(Blocks { scene, blocks: boxes.blocks, instructions })
     }
