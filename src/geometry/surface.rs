@@ -25,6 +25,11 @@ impl SurfacePoint {
         SurfacePoint { position, normal, error, primitive: PrimitiveId::NONE, closed: false }
     }
 
+    /// A point of no surface, from which things are only looked at.
+    pub fn nowhere(position: DVec3) -> SurfacePoint {
+        SurfacePoint::of_sheet(position, DVec3::ZERO, DVec3::ZERO)
+    }
+
     /// A ray that leaves in the unit direction `direction`. Its origin is moved by the error bound along the normal
     /// (Pharr, Jakob, Humphreys, "Physically Based Rendering" 4th ed., 6.8.6), here in f64.
     #[inline]

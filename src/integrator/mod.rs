@@ -1,5 +1,6 @@
 //! How much light arrives?
 
+pub mod caustic;
 mod counters;
 mod numbers;
 mod path;

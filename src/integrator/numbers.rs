@@ -29,6 +29,12 @@ impl<'s, S: Sampler> Numbers<'s, S> {
         Numbers { sampler, pixel: sampler.pixel(x, y), index }
     }
 
+    /// Those of one of several paths that go on from the same start.
+    #[inline]
+    pub(super) fn branch(&self, branch: u32, branches: u32) -> Numbers<'s, S> {
+        Numbers { index: self.index * u64::from(branches) + u64::from(branch), ..*self }
+    }
+
     /// A point of the pixel.
     #[inline]
     pub(super) fn pixel(&self) -> [f64; 2] {
@@ -77,6 +83,18 @@ impl<S: Sampler> SegmentNumbers<'_, S> {
     #[inline]
     pub(super) fn lobe(&self) -> f64 {
         self.sample.set(self.first_set + 1).one(1)
+    }
+
+    /// The point of a light that is sought by way of a ball.
+    #[inline]
+    pub(super) fn caustic_light(&self) -> [f64; 2] {
+        self.shared.pair(2)
+    }
+
+    /// Which ball, and which light.
+    #[inline]
+    pub(super) fn caustic_choice(&self) -> [f64; 2] {
+        self.sample.set(self.first_set + 1).pair(2)
     }
 
     /// Whether the path goes on.

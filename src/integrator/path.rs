@@ -2,6 +2,7 @@
 //! importance sampling (Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, ch. 9 and 10).
 
 use super::Counters;
+use super::caustic::{Caustics, Passage};
 use super::numbers::{Numbers, SegmentNumbers};
 use crate::accel::Accelerator;
 use crate::geometry::{Hit, PrimitiveId, Ray};
@@ -13,23 +14,38 @@ use crate::world::{Camera, Interaction, World};
 
 /// Estimates the radiance that arrives at the camera.
 pub struct PathTracer<'a, A> {
-    world: &'a World,
+    pub(super) world: &'a World,
     camera: &'a Camera,
-    accelerator: &'a A,
+    pub(super) accelerator: &'a A,
     /// Longest path in segments, at least 1.
     bounces: u32,
     light_sampling: bool,
     /// Whether there is more than one light to aim at.
     light_choice: bool,
+    /// The balls by which light is sought.
+    pub(super) caustics: Option<Caustics>,
+    /// In how many directions a path goes on from the first surface that lights are aimed at from.
+    branches: u32,
 }
 
 /// How the last direction of a path was chosen: what weighs light that it meets.
 #[derive(Clone, Copy)]
-enum Chosen {
+pub(super) enum Chosen {
     /// So that light sampling could not have found the same: the camera, a delta, or light sampling off.
     Alone,
     /// By a material with this density, where light sampling competes.
     ByMaterial { pdf: f64, receiver: Receiver },
+    /// So, and then by way of a ball, where light is sought, too.
+    Through { pdf: f64, receiver: Receiver, passage: Passage },
+}
+
+/// Where a path has arrived.
+#[derive(Clone, Copy)]
+pub(super) struct Surface<'a> {
+    pub(super) at: Interaction,
+    pub(super) material: &'a Material,
+    /// Whether lights are aimed at from here.
+    aims: bool,
 }
 
 /// A path on its way.
@@ -41,6 +57,8 @@ struct Path<'s, S> {
     /// Factor on all light that the path still meets.
     throughput: Rgb,
     radiance: Rgb,
+    /// Its part of the sample.
+    share: f64,
     chosen: Chosen,
 }
 
@@ -61,7 +79,9 @@ impl<'a, A: Accelerator> PathTracer<'a, A> {
     ) -> PathTracer<'a, A> {
         let light_sampling = light_sampling && world.requires.light_sampling;
         let light_choice = world.lights.has_choice();
-        PathTracer { world, camera, accelerator, bounces, light_sampling, light_choice }
+        let caustics = if light_sampling { Caustics::of(world) } else { None };
+        let branches = if light_sampling { world.requires.branches } else { 1 };
+        PathTracer { world, camera, accelerator, bounces, light_sampling, light_choice, caustics, branches }
     }
 
     /// The radiance of sample `index` of the pixel (x, y).
@@ -82,19 +102,57 @@ impl<'a, A: Accelerator> PathTracer<'a, A> {
             offset: 0.0,
             throughput: Rgb::ONE,
             radiance: Rgb::ZERO,
+            share: 1.0,
             chosen: Chosen::Alone,
         };
         for segment in 1..=self.bounces {
-            if !self.extend(&mut path, segment, counters) {
+            let Some(surface) = self.arrive(&mut path, segment, counters) else { break };
+            if surface.aims && self.branches > 1 {
+                return self.split(&path, &surface, segment, counters);
+            }
+            if !self.turn(&mut path, &surface, segment) {
                 break;
             }
         }
         path.radiance
     }
 
-    /// Follows the path's ray to what it meets, adds the light found there and by aiming at lights, and turns it to
-    /// where it goes on. Whether it does.
-    fn extend<S: Sampler>(&self, path: &mut Path<S>, segment: u32, counters: &mut Counters) -> bool {
+    /// The radiance of a path that goes on in several directions from here. What it costs to get here, and light that is
+    /// aimed at, is worth more than one look at what arrives from elsewhere.
+    fn split<S: Sampler>(
+        &self,
+        path: &Path<S>,
+        surface: &Surface,
+        segment: u32,
+        counters: &mut Counters,
+    ) -> Rgb {
+        let share = 1.0 / f64::from(self.branches);
+        let mut sum = Rgb::ZERO;
+        for index in 0..self.branches {
+            let numbers = path.numbers.branch(index, self.branches);
+            let mut branch = Path { numbers, radiance: Rgb::ZERO, share, ..*path };
+            let mut segment = segment;
+            let mut surface = *surface;
+            while self.turn(&mut branch, &surface, segment) {
+                segment += 1;
+                match self.arrive(&mut branch, segment, counters) {
+                    Some(next) => surface = next,
+                    None => break,
+                }
+            }
+            sum += branch.radiance;
+        }
+        path.radiance + sum * share
+    }
+
+    /// Follows the path's ray to what it meets, and adds the light found there and by aiming at lights; `None` if it
+    /// ends there.
+    fn arrive<S: Sampler>(
+        &self,
+        path: &mut Path<S>,
+        segment: u32,
+        counters: &mut Counters,
+    ) -> Option<Surface<'a>> {
         counters.rays += 1;
         let Some(hit) = self.accelerator.intersect(&path.ray) else {
             // Asked only here, since nothing is hit by such a ray.
@@ -103,30 +161,52 @@ impl<'a, A: Accelerator> PathTracer<'a, A> {
             } else {
                 counters.refused += 1;
             }
-            return false;
+            return None;
         };
         counters.self_hits += u64::from(path.meets_itself(&hit));
         let at = self.world.interaction(&path.ray, &hit);
         let emission = self.world.emission(hit.object);
         if emission != Rgb::ZERO {
-            let weight = path
-                .chosen
-                .weight(|receiver| self.world.lights.pdf_surface(receiver, &hit, &at.receiver.point));
-            path.radiance += path.throughput * emission * weight;
+            path.radiance += path.throughput * emission * self.weight(path, &hit, &at);
         }
         if segment == self.bounces {
             counters.cut_paths += 1;
-            counters.cut_throughput.add(path.throughput.element_sum() / 3.0);
-            return false;
+            counters.cut_throughput.add(path.throughput.element_sum() / 3.0 * path.share);
+            return None;
         }
         let material = self.world.material(hit.object);
-        let numbers = path.numbers.segment(segment);
         let aims = self.light_sampling && !material.is_delta();
+        let surface = Surface { at, material, aims };
         if aims {
-            path.radiance +=
-                path.throughput * self.direct(path.ray.direction, &at, material, &numbers, counters);
+            let numbers = path.numbers.segment(segment);
+            let mut light = self.direct(path.ray.direction, &surface, &numbers, counters);
+            if let Some(caustics) = &self.caustics {
+                let left = self.bounces - segment;
+                light +=
+                    self.by_way_of_balls(caustics, path.ray.direction, &surface, left, &numbers, counters);
+            }
+            path.radiance += path.throughput * light;
         }
-        self.scatter(path, &at, material, aims, &numbers) && survives(path, segment, || numbers.roulette())
+        Some(surface)
+    }
+
+    /// Turns the path to where it goes on. Whether it does.
+    fn turn<S: Sampler>(&self, path: &mut Path<S>, surface: &Surface, segment: u32) -> bool {
+        let numbers = path.numbers.segment(segment);
+        self.scatter(path, surface, &numbers) && survives(path, segment, || numbers.roulette())
+    }
+
+    /// The weight of the light that is emitted where the path has arrived.
+    fn weight<S>(&self, path: &Path<S>, hit: &Hit, at: &Interaction) -> f64 {
+        match (&path.chosen, &self.caustics) {
+            (Chosen::Through { pdf, receiver, passage }, Some(caustics)) => {
+                let light = (&at.receiver.point, hit, path.ray.direction);
+                caustics.weight(self.world, passage, (receiver, *pdf), light)
+            }
+            (chosen, _) => {
+                chosen.weight(|receiver| self.world.lights.pdf_surface(receiver, hit, &at.receiver.point))
+            }
+        }
     }
 
     fn add_sky<S: Sampler>(&self, path: &mut Path<S>) {
@@ -142,8 +222,7 @@ impl<'a, A: Accelerator> PathTracer<'a, A> {
     fn direct(
         &self,
         arrived: DVec3,
-        at: &Interaction,
-        material: &Material,
+        Surface { at, material, .. }: &Surface,
         numbers: &SegmentNumbers<impl Sampler>,
         counters: &mut Counters,
     ) -> Rgb {
@@ -179,9 +258,7 @@ impl<'a, A: Accelerator> PathTracer<'a, A> {
     fn scatter<S>(
         &self,
         path: &mut Path<S>,
-        at: &Interaction,
-        material: &Material,
-        aims: bool,
+        Surface { at, material, aims }: &Surface,
         numbers: &SegmentNumbers<impl Sampler>,
     ) -> bool {
         let wo = -path.ray.direction;
@@ -197,8 +274,8 @@ impl<'a, A: Accelerator> PathTracer<'a, A> {
         }
         path.throughput *= scatter.weight;
         path.chosen = match scatter.pdf {
-            Pdf::SolidAngle(pdf) if aims => Chosen::ByMaterial { pdf, receiver: at.receiver },
-            _ => Chosen::Alone,
+            Pdf::SolidAngle(pdf) if *aims => Chosen::ByMaterial { pdf, receiver: at.receiver },
+            _ => self.by_way_of_ball(&path.chosen, path.ray.direction, at, scatter.direction),
         };
         let point = &at.receiver.point;
         path.ray = point.leave(scatter.direction);
@@ -218,7 +295,7 @@ impl Chosen {
     /// The balance heuristic's weight of light that was met, given the density of meeting it by light sampling.
     fn weight(&self, light_pdf: impl FnOnce(&Receiver) -> f64) -> f64 {
         match self {
-            Chosen::Alone => 1.0,
+            Chosen::Alone | Chosen::Through { .. } => 1.0,
             Chosen::ByMaterial { pdf, receiver } => 1.0 / (1.0 + light_pdf(receiver) / pdf),
         }
     }

@@ -202,6 +202,8 @@ impl Requires {
         area_lights: 0,
         sky: SkyKind::Black,
         light_sampling: false,
+        smooth_balls: 0,
+        branches: 1,
         lens: false,
         shading_normals: false,
         refraction: false,

@@ -14,10 +14,12 @@ mod place;
 mod requires;
 mod shading;
 mod sky;
+mod smooth_balls;
 
 pub use camera::Camera;
 pub use requires::Requires;
 pub use sky::{Sky, SkyKind};
+pub use smooth_balls::{MOST_SMOOTH_BALLS, SmoothBall};
 
 use crate::geometry::{Geometry, Hit, Ray};
 use crate::material::Material;

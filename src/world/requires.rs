@@ -25,6 +25,10 @@ pub struct Requires {
     pub sky: SkyKind,
     /// Whether rays are aimed at lights.
     pub light_sampling: bool,
+    /// Balls by way of which lights are sought.
+    pub smooth_balls: usize,
+    /// In how many directions a path goes on from the first surface that rays are aimed at lights from.
+    pub branches: u32,
     /// Whether the lens has a size.
     pub lens: bool,
     /// Whether normals of mesh files are kept.
@@ -49,6 +53,8 @@ impl Requires {
             area_lights: world.lights.count(),
             sky: world.sky.kind(),
             light_sampling: world.lights.can_sample() && diffuse,
+            smooth_balls: if diffuse { world.smooth_balls().len() } else { 0 },
+            branches: branches(world),
             lens: match desc.camera.aperture {
                 ApertureDesc::DepthOfField(size) | ApertureDesc::Radius(size) => size > 0.0,
             },
@@ -89,10 +95,26 @@ impl fmt::Display for Requires {
             }
         };
         option(self.light_sampling, &format!("light sampling ({})", counted(self.area_lights, "area light")));
+        option(self.smooth_balls > 0, &format!("caustics of {}", counted(self.smooth_balls, "ball")));
+        option(self.branches > 1, &format!("{} branches of a path", self.branches));
         option(self.lens, "a lens");
         option(self.shading_normals, "shading normals");
         option(self.refraction, "refraction");
         write!(f, "{}", parts.join(", "))
+    }
+}
+
+/// Paths of diffuse scenes go on in several directions. Aiming at an area light leaves so little noise there that one look
+/// at it serves several at what comes from elsewhere: with four, a room of diffuse walls had 1.85 times the efficiency in
+/// relMSE, an open scene with two 1.14 times. Where skies, mirrors or glass bring noise of their own it gained nothing
+/// (0.8 to 1.1 times).
+fn branches(world: &World) -> u32 {
+    let plain = world.materials.iter().all(|material| matches!(material, Material::Diffuse(_)));
+    match world.sky.kind() {
+        _ if !plain || world.lights.count() == 0 => 1,
+        SkyKind::Black => 4,
+        SkyKind::Constant => 2,
+        SkyKind::Gradient => 1,
     }
 }
 

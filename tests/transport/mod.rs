@@ -2,6 +2,7 @@
 //! the standard error below the width that the test names.
 
 mod camera;
+mod caustics;
 mod counters;
 mod direct;
 mod furnace;

@@ -110,21 +110,39 @@ impl Lights {
                 pdf: pdf * self.sky_share,
             }
         } else {
-            let (light, probability) = self.choose(at, (select - self.sky_share) / (1.0 - self.sky_share))?;
-            let (point, pdf) = self.lights[light].sample(geometry, at, square)?;
-            let pdf = pdf * probability * (1.0 - self.sky_share);
-            LightSample { target: LightTarget::Surface(point), radiance: self.lights[light].radiance, pdf }
+            let select = (select - self.sky_share) / (1.0 - self.sky_share);
+            let (point, radiance, pdf) = self.sample_area(geometry, at, [select, u[1], u[2]])?;
+            LightSample { target: LightTarget::Surface(point), radiance, pdf: pdf * (1.0 - self.sky_share) }
         };
         (sample.pdf > 0.0 && sample.pdf.is_finite()).then_some(sample)
     }
 
-    /// Density per solid angle with which [`Lights::sample`] would have chosen a point of an emitting object.
-    pub fn pdf_surface(&self, at: &Receiver, hit: &Hit, point: &SurfacePoint) -> f64 {
+    /// Chooses an object that emits and a point of it, as [`Lights::sample`] does with what is left for them: the point,
+    /// its radiance, and its density per solid angle, > 0 and finite.
+    pub fn sample_area(
+        &self,
+        geometry: &Geometry,
+        at: &Receiver,
+        u: [f64; 3],
+    ) -> Option<(SurfacePoint, Rgb, f64)> {
+        let (light, probability) = self.choose(at, u[0])?;
+        let (point, pdf) = self.lights[light].sample(geometry, at, [u[1], u[2]])?;
+        let pdf = pdf * probability;
+        (pdf > 0.0 && pdf.is_finite()).then(|| (point, self.lights[light].radiance, pdf))
+    }
+
+    /// Density per solid angle with which [`Lights::sample_area`] would have chosen a point of an emitting object.
+    pub fn pdf_area(&self, at: &Receiver, hit: &Hit, point: &SurfacePoint) -> f64 {
         let light = self.of_object[hit.object as usize] as usize;
         if light >= self.lights.len() {
             return 0.0;
         }
-        self.lights[light].pdf(at, point, hit.part) * self.probability(at, light) * (1.0 - self.sky_share)
+        self.lights[light].pdf(at, point, hit.part) * self.probability(at, light)
+    }
+
+    /// Density per solid angle with which [`Lights::sample`] would have chosen a point of an emitting object.
+    pub fn pdf_surface(&self, at: &Receiver, hit: &Hit, point: &SurfacePoint) -> f64 {
+        self.pdf_area(at, hit, point) * (1.0 - self.sky_share)
     }
 
     /// Density per solid angle with which [`Lights::sample`] would have chosen a direction of the sky.
