@@ -4,7 +4,11 @@
 //! chunk all pixels have the same number of samples, and a tile writes only its own pixels: neither the tiles nor the
 //! threads can be seen in the sums.
 
+mod cells;
+mod chunks;
+mod error_pixels;
 mod memory;
+mod meter;
 mod report;
 mod tile;
 
@@ -16,19 +20,16 @@ use crate::accel::bvh::Bvh;
 use crate::accel::embree::Embree;
 use crate::accel::{Accelerator, BuildOptions, BvhQuality, Isa, Precision, check_isa};
 use crate::error::{Error, Result};
-use crate::film::Film;
+use crate::film::{Film, PictureError};
 use crate::integrator::{Counters, PathTracer};
 use crate::math::Rgb;
-use crate::sampling::{Independent, Sampler, SamplerKind, Sobol};
+use crate::sampling::{Independent, Sampler, SamplerKind, Scrambles, Sobol};
 use crate::scene::desc::CameraDesc;
 use crate::world::World;
-use rayon::prelude::*;
+use chunks::take_samples;
 use std::any::Any;
-use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
-use tile::{Pass, Tile};
 
 /// The widest and highest picture, in pixels.
 pub const MAX_SIDE: u32 = 65_536;
@@ -53,6 +54,13 @@ pub const CHUNK: u32 = 16;
 pub const FIREFLY: f64 = 100.0;
 /// The fewest samples of a pixel and chunk by which others are judged to be fireflies.
 pub const FIREFLY_BEFORE: u64 = 8;
+
+/// Samples in the first round of every scramble, unless set otherwise: so many are worth keeping together, and the eight
+/// scrambles that error bars need are complete at eight times as many. Splitting 64 samples into 8 scrambles was measured
+/// to cost 1.5 to 1.6 times the relMSE on smooth scenes.
+pub const SCRAMBLE_LENGTH: u32 = 128;
+/// The same where splitting costs nothing, or where error bars are wanted after few samples.
+pub const SHORT_SCRAMBLE_LENGTH: u32 = 2;
 
 /// The implementations of [`Accelerator`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -104,6 +112,13 @@ pub struct Settings {
     /// The most that a component of a sample's radiance may be, > 0 and finite, or `None` for no limit. A limit makes
     /// the picture too dark, by [`Rendered::clamp_removed`].
     pub clamp: Option<f64>,
+    /// Samples in the first round of each of a pixel's eight scrambles, at least 1, or `None` to choose: see [`Scrambles`].
+    /// Part of what determines the picture.
+    pub scramble_length: Option<u32>,
+    /// Whether to estimate the error of the picture while the scrambles can't tell it: a few pixels then take seven more
+    /// scrambles, whose samples do not enter the picture. They are about 1 pixel in 270, so at most 3 % more work, but 64
+    /// where the picture has as many.
+    pub error_estimate: bool,
 }
 
 impl Settings {
@@ -125,7 +140,18 @@ impl Settings {
             sampler: SamplerKind::default(),
             light_sampling: true,
             clamp: None,
+            scramble_length: None,
+            error_estimate: false,
         }
+    }
+
+    /// How the samples of a pixel are spread over its scrambles.
+    pub fn scrambles(&self) -> Scrambles {
+        let chosen = match self.sampler {
+            SamplerKind::Sobol => SCRAMBLE_LENGTH,
+            SamplerKind::Independent => SHORT_SCRAMBLE_LENGTH,
+        };
+        Scrambles::new(self.scramble_length.unwrap_or(chosen).into())
     }
 
     /// Whether this can be rendered on this machine: ranges, memory for the film, features of the build. Nothing is
@@ -146,6 +172,7 @@ impl Settings {
             ("tile", self.tile.map_or(1, u64::from), MAX_SIDE.into()),
             ("chunk", self.chunk.into(), u32::MAX.into()),
             ("threads", self.threads.map_or(1, |threads| threads as u64), MAX_THREADS as u64),
+            ("scramble length", self.scramble_length.map_or(1, u64::from), u32::MAX.into()),
         ];
         if let Some((name, value, most)) = ranges.iter().find(|(_, value, most)| !(1..=*most).contains(value))
         {
@@ -205,6 +232,9 @@ pub struct Rendered {
     pub counters: Counters,
     /// The limit of the samples' components.
     pub clamp: Option<f64>,
+    /// How far the picture is from the truth, estimated from the film if its eight scrambles have their first round,
+    /// else as [`Settings::error_estimate`] says; `None` without either.
+    pub error: Option<PictureError>,
     /// Whether it was stopped before all samples were taken.
     pub cancelled: bool,
     /// Seconds to build the accelerator.
@@ -271,109 +301,6 @@ impl Run<'_> {
         take_samples(self.settings, self.watch, |x, y, index, counters| {
             tracer.sample(&sampler, x, y, index, counters)
         })
-    }
-}
-
-/// The chunk loop. A chunk is taken in passes, so that a render which is stopped early has something to show.
-fn take_samples<F>(settings: &Settings, watch: &dyn Watch, sample: F) -> Result<Rendered>
-where
-    F: Fn(u32, u32, u64, &mut Counters) -> Rgb + Sync,
-{
-    let start = Instant::now();
-    let chunk = u64::from(settings.chunk);
-    let mut film = Film::new(settings.width, settings.height, chunk);
-    let passes = Passes { settings, watch, meter: Meter::new(settings), sample };
-    let mut counters = Counters::default();
-    let mut cancelled = false;
-    for index in 0..settings.samples.div_ceil(chunk) {
-        let samples = index * chunk..settings.samples.min((index + 1) * chunk);
-        let wanted = samples.end - samples.start;
-        let (taken, sums) = passes.chunk(samples, &mut counters)?;
-        if taken > 0 {
-            film.add(index, taken, sums)?;
-        }
-        if taken < wanted {
-            cancelled = true;
-            break;
-        }
-    }
-    let render_seconds = start.elapsed().as_secs_f64();
-    let clamp = settings.clamp;
-    Ok(Rendered { film, counters, clamp, cancelled, build_seconds: 0.0, render_seconds })
-}
-
-/// What the passes of a render share.
-struct Passes<'s, F> {
-    settings: &'s Settings,
-    watch: &'s dyn Watch,
-    meter: Meter,
-    sample: F,
-}
-
-impl<F> Passes<'_, F>
-where
-    F: Fn(u32, u32, u64, &mut Counters) -> Rgb + Sync,
-{
-    /// The sums of a chunk, and how many samples of a pixel they hold: fewer than wanted if cancelled. Passes double
-    /// what there is: 1, 1, 2, 4 ... samples, added in the same order as in one go.
-    fn chunk(&self, samples: Range<u64>, counters: &mut Counters) -> Result<(u64, Vec<Rgb>)> {
-        let mut sums = memory::plane(self.settings)?;
-        let mut complete = memory::plane(self.settings)?;
-        let mut next = samples.start;
-        while next < samples.end {
-            let taken = next - samples.start;
-            let end = samples.end.min(next + taken.max(1));
-            let pass = Pass { samples: next..end, before: taken, clamp: self.settings.clamp };
-            let Some(counted) = self.pass(&pass, &mut sums) else {
-                return Ok((taken, complete));
-            };
-            *counters += counted;
-            next = end;
-            if next < samples.end {
-                complete.copy_from_slice(&sums);
-            }
-        }
-        Ok((samples.end - samples.start, sums))
-    }
-
-    /// Adds samples to all pixels; `None` if cancelled, which leaves the sums unusable.
-    fn pass(&self, pass: &Pass, sums: &mut [Rgb]) -> Option<Counters> {
-        let count = pass.samples.end - pass.samples.start;
-        tile::split(sums, self.settings.width, self.settings.tile_side())
-            .into_par_iter()
-            .with_max_len(1)
-            .map(|mut tile: Tile<'_>| {
-                let counters = tile.sum(pass, &self.sample, || self.watch.cancelled())?;
-                self.watch.progress(&self.meter.add(tile.pixels() * count, counters.rays));
-                Some(counters)
-            })
-            .try_reduce(Counters::default, |mut a, b| {
-                a += b;
-                Some(a)
-            })
-    }
-}
-
-/// Adds up the work of all threads for [`Watch::progress`].
-struct Meter {
-    total: u64,
-    samples: AtomicU64,
-    rays: AtomicU64,
-}
-
-impl Meter {
-    fn new(settings: &Settings) -> Meter {
-        let pixels = u64::from(settings.width) * u64::from(settings.height);
-        let total = pixels.saturating_mul(settings.samples);
-        Meter { total, samples: AtomicU64::new(0), rays: AtomicU64::new(0) }
-    }
-
-    fn add(&self, samples: u64, rays: u64) -> Progress {
-        Progress {
-            samples: self.samples.fetch_add(samples, Ordering::Relaxed) + samples,
-            total: self.total,
-            rays: self.rays.fetch_add(rays, Ordering::Relaxed) + rays,
-        }
     }
 }
 

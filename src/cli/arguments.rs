@@ -120,6 +120,10 @@ pub(super) struct RenderArguments {
     /// Most that a component of a sample's radiance may be; takes light away and says how much [default: no limit]
     #[arg(long, value_name = "X", allow_negative_numbers = true, value_parser = positive)]
     clamp: Option<f64>,
+    /// Whether the error of the picture is estimated from a few pixels where its samples alone can't tell it, for about 3 %
+    /// more time [default: on]
+    #[arg(long, value_name = "on|off", value_parser = choice(&SWITCH))]
+    error_estimate: Option<bool>,
     /// Brightness of a PNG in stops, -100 to 100
     #[arg(long, value_name = "STOPS", allow_negative_numbers = true, default_value = "0", value_parser = stops)]
     exposure: f64,
@@ -190,6 +194,7 @@ impl RenderArguments {
             sampler: self.sampler.unwrap_or(defaults.sampler),
             light_sampling: self.light_sampling.unwrap_or(defaults.light_sampling),
             clamp: self.clamp,
+            error_estimate: self.error_estimate.unwrap_or(true),
             ..defaults
         };
         Ok(Job { scene, image, settings, exposure: self.exposure, quiet: self.quiet, json: self.json })

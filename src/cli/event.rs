@@ -2,6 +2,7 @@
 
 use super::arguments::{ACCELS, BVHS, ISAS, Job, PRECISIONS, name_of};
 use crate::error::{Diagnostic, Error, Severity};
+use crate::film::PictureError;
 use crate::render::{Progress, Rendered};
 use crate::world::Requires;
 use serde::Serialize;
@@ -60,6 +61,7 @@ pub(super) struct Summary<'e> {
     requires: &'e Requires,
     /// Samples per pixel in the picture.
     samples_taken: u64,
+    error: Option<ErrorRecord>,
     #[serde(flatten)]
     counts: Counts,
     rays: u64,
@@ -67,6 +69,20 @@ pub(super) struct Summary<'e> {
     seconds: Seconds,
     samples_per_second: f64,
     rays_per_second: f64,
+}
+
+/// How far the picture is from the truth, with 95 % intervals; null where that is not known.
+#[derive(Debug, Serialize)]
+struct ErrorRecord {
+    /// The root of the expected relMSE.
+    relative: f64,
+    relative_interval: [f64; 2],
+    /// Over pixels and components, as radiance.
+    mean: f64,
+    mean_interval: [f64; 2],
+    mean_standard_error: f64,
+    /// Whether a few pixels carry most of the error.
+    doubtful: bool,
 }
 
 /// What was odd about the samples of a picture.
@@ -153,11 +169,26 @@ impl<'e> Summary<'e> {
             job: JobRecord::new(job),
             requires,
             samples_taken: film.samples(),
+            error: rendered.error.as_ref().map(ErrorRecord::new),
             counts: Counts::new(rendered),
             rays: counters.rays,
             seconds,
             samples_per_second: per_second(rendered.samples(), seconds.render),
             rays_per_second: per_second(counters.rays as f64, seconds.render),
+        }
+    }
+}
+
+impl ErrorRecord {
+    fn new(error: &PictureError) -> ErrorRecord {
+        let PictureError { relative, mean, standard_error, is_doubtful } = *error;
+        ErrorRecord {
+            relative: relative.value,
+            relative_interval: [relative.low, relative.high],
+            mean: mean.value,
+            mean_interval: [mean.low, mean.high],
+            mean_standard_error: standard_error,
+            doubtful: is_doubtful,
         }
     }
 }

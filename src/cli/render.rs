@@ -1,11 +1,12 @@
 //! `pathtracer SCENE WIDTH HEIGHT SAMPLES BOUNCES IMAGE`.
 
 use super::arguments::Job;
-use super::console::{duration, say, with_prefix};
+use super::console::{digits, duration, say, with_prefix};
 use super::event::{self, Event, JobRecord, Seconds, Summary, per_second};
 use super::progress::Reporter;
 use super::{describe, findings, interrupt};
 use crate::error::Error;
+use crate::film::PictureError;
 use crate::output;
 use crate::picture::Destination;
 use crate::render::{Rendered, in_pool, render};
@@ -72,13 +73,29 @@ fn conclude(job: &Job, rendered: &Rendered, seconds: Seconds) {
     }
     let total = seconds.load + seconds.build + seconds.render + seconds.write;
     say(format_args!(
-        "{} written in {} ({} of sampling, {}samples/s, {}rays/s)",
+        "{} written in {} ({} of sampling, {}samples/s, {}rays/s){}",
         job.image.display(),
         duration(Duration::from_secs_f64(total)),
         duration(Duration::from_secs_f64(seconds.render)),
         with_prefix(per_second(rendered.samples(), seconds.render)),
         with_prefix(per_second(rendered.counters.rays as f64, seconds.render)),
+        rendered.error.as_ref().map_or(String::new(), error),
     ));
+}
+
+/// How far the picture is from the truth.
+fn error(error: &PictureError) -> String {
+    let PictureError { relative, mean, is_doubtful, .. } = error;
+    let percent = |share: f64| digits(100.0 * share, 2);
+    format!(
+        "; estimated relative error {} % ({} to {} %), mean {} +- {}{}",
+        percent(relative.value),
+        percent(relative.low),
+        percent(relative.high),
+        digits(mean.value, 5),
+        digits(mean.high - mean.value, 2),
+        if *is_doubtful { ", doubtful: a few pixels carry most of it" } else { "" }
+    )
 }
 
 /// A result and the seconds that it took.

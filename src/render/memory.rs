@@ -4,38 +4,52 @@ use super::Settings;
 use crate::error::{Error, Result};
 use crate::film::Film;
 use crate::math::Rgb;
+use crate::sampling::SCRAMBLES;
 use std::fs;
 
 /// The most bytes that the film and its picture take at once.
-pub fn film_bytes(width: u32, height: u32, samples: u64, chunk: u32) -> u64 {
-    let pixels = u64::from(width) * u64::from(height);
-    let planes = Film::most_nodes(samples.div_ceil(u64::from(chunk.max(1))));
-    // Two planes more: the chunk under way and its last complete pass; afterwards the encoded picture (24 bytes a pixel
-    // for EXR).
-    pixels.saturating_mul((planes + 2) * size_of::<Rgb>() as u64)
+pub fn film_bytes(settings: &Settings) -> u64 {
+    let pixels = u64::from(settings.width) * u64::from(settings.height);
+    let chunk = u64::from(settings.chunk.max(1));
+    let radiance = size_of::<Rgb>() as u64;
+    // What tells the error: one number a pixel in nodes within one scramble, eight in others.
+    let errors = |samples: u64| match settings.scrambles().only(0..samples) {
+        Some(_) => size_of::<f32>() as u64,
+        None => (size_of::<f32>() * SCRAMBLES) as u64,
+    };
+    let nodes = Film::most_nodes(settings.samples.div_ceil(chunk));
+    let film: u64 = (0..nodes)
+        .map(|node| radiance + errors(chunk.saturating_mul(1 << node).min(settings.samples.max(1))))
+        .sum();
+    // Beside it the chunk under way and its last complete pass; afterwards the encoded picture (24 bytes a pixel for EXR).
+    let under_way = match settings.scrambles().only(0..chunk) {
+        Some(_) => radiance,
+        None => radiance + (size_of::<f64>() * SCRAMBLES) as u64,
+    };
+    pixels.saturating_mul(film + 2 * under_way)
 }
 
 /// Whether the film fits into the memory that is free now; passes where the system does not say.
 pub(super) fn check(settings: &Settings) -> Result<()> {
-    let needed = film_bytes(settings.width, settings.height, settings.samples, settings.chunk);
+    let needed = film_bytes(settings);
     match available_bytes() {
         Some(available) if needed > available => Err(too_large(settings, Some(available))),
         _ => Ok(()),
     }
 }
 
-/// One zero a pixel.
-pub(super) fn plane(settings: &Settings) -> Result<Vec<Rgb>> {
-    let pixels = settings.width as usize * settings.height as usize;
-    let mut plane = Vec::new();
-    plane.try_reserve_exact(pixels).map_err(|_| too_large(settings, None))?;
-    plane.resize(pixels, Rgb::ZERO);
-    Ok(plane)
+/// So many zeros a pixel.
+pub(super) fn zeros(settings: &Settings, each: usize) -> Result<Vec<f64>> {
+    let count = settings.width as usize * settings.height as usize * each;
+    let mut zeros = Vec::new();
+    zeros.try_reserve_exact(count).map_err(|_| too_large(settings, None))?;
+    zeros.resize(count, 0.0);
+    Ok(zeros)
 }
 
 fn too_large(settings: &Settings, available: Option<u64>) -> Error {
-    let Settings { width, height, samples, chunk, .. } = *settings;
-    let needed = gigabytes(film_bytes(width, height, samples, chunk));
+    let Settings { width, height, samples, .. } = *settings;
+    let needed = gigabytes(film_bytes(settings));
     let available = available.map_or("less".into(), gigabytes);
     Error::Usage(format!(
         "a picture of {width} x {height} pixels with {samples} samples needs {needed} GB of memory, and {available} GB \

@@ -1,8 +1,11 @@
 //! A plane of sums cut into tiles that own their pixels.
 
+use super::cells::{Cells, GREYS};
 use super::{FIREFLY, FIREFLY_BEFORE};
+use crate::film::grey;
 use crate::integrator::Counters;
 use crate::math::Rgb;
+use crate::sampling::{Place, Scrambles};
 use std::ops::Range;
 
 /// Samples that every pixel gets.
@@ -13,27 +16,31 @@ pub(super) struct Pass {
     pub(super) before: u64,
     /// The most that a component of a sample may be.
     pub(super) clamp: Option<f64>,
+    /// Where they lie.
+    pub(super) scrambles: Scrambles,
 }
 
-/// A rectangle of a plane.
+/// A rectangle of a plane of cells.
 pub(super) struct Tile<'p> {
     x: u32,
     y: u32,
-    rows: Vec<&'p mut [Rgb]>,
+    stride: usize,
+    rows: Vec<&'p mut [f64]>,
 }
 
 /// Cuts a plane with rows of `width` pixels into tiles of `side` x `side` pixels, fewer at the right and lower edges.
-pub(super) fn split(plane: &mut [Rgb], width: u32, side: u32) -> Vec<Tile<'_>> {
-    let band_pixels = width as usize * side as usize;
-    let bands = plane.chunks_mut(band_pixels).zip((0..).step_by(side as usize));
-    bands.flat_map(|(band, y)| split_band(band, width, side, y)).collect()
+pub(super) fn split(cells: &mut Cells, width: u32, side: u32) -> Vec<Tile<'_>> {
+    let Cells { values, stride, .. } = cells;
+    let band_values = width as usize * side as usize * *stride;
+    let bands = values.chunks_mut(band_values).zip((0..).step_by(side as usize));
+    bands.flat_map(|(band, y)| split_band(band, *stride, width, side, y)).collect()
 }
 
-fn split_band(band: &mut [Rgb], width: u32, side: u32, y: u32) -> Vec<Tile<'_>> {
+fn split_band(band: &mut [f64], stride: usize, width: u32, side: u32, y: u32) -> Vec<Tile<'_>> {
     let mut tiles: Vec<Tile<'_>> =
-        (0..width).step_by(side as usize).map(|x| Tile { x, y, rows: Vec::new() }).collect();
-    for row in band.chunks_mut(width as usize) {
-        let parts = row.chunks_mut(side as usize);
+        (0..width).step_by(side as usize).map(|x| Tile { x, y, stride, rows: Vec::new() }).collect();
+    for row in band.chunks_mut(width as usize * stride) {
+        let parts = row.chunks_mut(side as usize * stride);
         tiles.iter_mut().zip(parts).for_each(|(tile, part)| tile.rows.push(part));
     }
     tiles
@@ -42,7 +49,7 @@ fn split_band(band: &mut [Rgb], width: u32, side: u32, y: u32) -> Vec<Tile<'_>> 
 impl Tile<'_> {
     /// The number of pixels.
     pub(super) fn pixels(&self) -> u64 {
-        self.rows.iter().map(|row| row.len() as u64).sum()
+        self.rows.iter().map(|row| (row.len() / self.stride) as u64).sum()
     }
 
     /// Adds the samples of a pass to every pixel, in the order of their indices; `None` if `cancelled`, which is asked
@@ -53,15 +60,21 @@ impl Tile<'_> {
     {
         let mut counters = Counters::default();
         for (row, y) in self.rows.iter_mut().zip(self.y..) {
-            for (pixel, x) in row.iter_mut().zip(self.x..) {
+            for (cell, x) in row.chunks_exact_mut(self.stride).zip(self.x..) {
                 if cancelled() {
                     return None;
                 }
-                let firefly = pass.firefly(*pixel);
+                let mut sum = Rgb::new(cell[0], cell[1], cell[2]);
+                let firefly = pass.firefly(sum);
                 for index in pass.samples.clone() {
-                    let radiance = sample(x, y, index, &mut counters);
-                    *pixel += pass.judge(radiance, firefly, &mut counters);
+                    let place = pass.scrambles.place(index);
+                    let radiance = pass.take(x, y, place, sample, firefly, &mut counters);
+                    sum += radiance;
+                    if let Some(greys) = cell.get_mut(GREYS..).filter(|greys| !greys.is_empty()) {
+                        greys[place.scramble] += grey(radiance);
+                    }
                 }
+                cell[..GREYS].copy_from_slice(&sum.to_array());
             }
         }
         Some(counters)
@@ -69,6 +82,24 @@ impl Tile<'_> {
 }
 
 impl Pass {
+    /// What the sample at a place adds to its pixel.
+    #[inline]
+    pub(super) fn take<F>(
+        &self,
+        x: u32,
+        y: u32,
+        place: Place,
+        sample: &F,
+        firefly: f64,
+        counters: &mut Counters,
+    ) -> Rgb
+    where
+        F: Fn(u32, u32, u64, &mut Counters) -> Rgb,
+    {
+        let radiance = sample(x, y, place.sample_index(), counters);
+        self.judge(radiance, firefly, counters)
+    }
+
     /// Above which component a sample of a pixel is a firefly, given the sum of the pixel's samples in the chunk.
     fn firefly(&self, sum: Rgb) -> f64 {
         let largest = sum.max_element();

@@ -1,0 +1,4 @@
+//! The error bars of pixels and pictures.
+
+mod bars;
+mod picture;
