@@ -4,16 +4,21 @@
 //! chunk all pixels have the same number of samples, and a tile writes only its own pixels: neither the tiles nor the
 //! threads can be seen in the sums.
 
+mod adaptive;
 mod cells;
 mod chunks;
 mod error_pixels;
 mod memory;
 mod meter;
+mod outlook;
+mod pace;
 mod report;
 mod tile;
 
+pub use adaptive::NOISE_AFTER;
 pub(crate) use memory::available_bytes;
 pub use memory::film_bytes;
+pub use outlook::Outlook;
 
 use crate::accel::bvh::Bvh;
 #[cfg(feature = "embree")]
@@ -29,7 +34,7 @@ use crate::world::World;
 use chunks::take_samples;
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// The widest and highest picture, in pixels.
 pub const MAX_SIDE: u32 = 65_536;
@@ -44,6 +49,8 @@ pub const MAX_THREADS: usize = 1024;
 /// Samples a pixel in a chunk, unless set otherwise: few enough that stopping loses little, enough that waiting for
 /// the last tile of a chunk costs little.
 pub const CHUNK: u32 = 16;
+/// The shortest time that can be asked for.
+pub const MIN_TIME: Duration = Duration::from_millis(100);
 /// A sample is a firefly if its largest component is more than so many times that of the mean of the samples before it
 /// in its pixel and chunk.
 ///
@@ -85,7 +92,7 @@ pub struct Settings {
     pub width: u32,
     /// Rows, 1 to [`MAX_SIDE`].
     pub height: u32,
-    /// Samples per pixel, 1 to [`MAX_SAMPLES`].
+    /// Samples per pixel, 1 to [`MAX_SAMPLES`]; with `noise` or `time` the most, and 0 for no limit.
     pub samples: u64,
     /// The longest path in ray segments, 1 to [`MAX_BOUNCES`].
     pub bounces: u32,
@@ -119,6 +126,13 @@ pub struct Settings {
     /// scrambles, whose samples do not enter the picture. They are about 1 pixel in 270, so at most 3 % more work, but 64
     /// where the picture has as many.
     pub error_estimate: bool,
+    /// The relative error, > 0, at which blocks of 16 x 16 pixels stop, from [`NOISE_AFTER`] samples on: the root of the mean
+    /// over a block's pixels of variance / (mean^2 + 0.01), of the mean of the components. Part of what determines the
+    /// picture.
+    pub noise: Option<f64>,
+    /// How long sampling may take, at least [`MIN_TIME`]. One sample a pixel is taken in any case. The picture is that of a
+    /// render whose `samples` are what this one took.
+    pub time: Option<Duration>,
 }
 
 impl Settings {
@@ -142,16 +156,23 @@ impl Settings {
             clamp: None,
             scramble_length: None,
             error_estimate: false,
+            noise: None,
+            time: None,
         }
     }
 
     /// How the samples of a pixel are spread over its scrambles.
     pub fn scrambles(&self) -> Scrambles {
         let chosen = match self.sampler {
-            SamplerKind::Sobol => SCRAMBLE_LENGTH,
-            SamplerKind::Independent => SHORT_SCRAMBLE_LENGTH,
+            SamplerKind::Sobol if self.noise.is_none() => SCRAMBLE_LENGTH,
+            _ => SHORT_SCRAMBLE_LENGTH,
         };
         Scrambles::new(self.scramble_length.unwrap_or(chosen).into())
+    }
+
+    /// Where sampling ends at the latest.
+    pub fn most_samples(&self) -> u64 {
+        if self.samples == 0 { MAX_SAMPLES } else { self.samples }
     }
 
     /// Whether this can be rendered on this machine: ranges, memory for the film, features of the build. Nothing is
@@ -166,8 +187,9 @@ impl Settings {
                 self.width, self.height
             )));
         }
+        let samples = if self.has_other_end() { self.most_samples() } else { self.samples };
         let ranges = [
-            ("samples", self.samples, MAX_SAMPLES),
+            ("samples", samples, MAX_SAMPLES),
             ("bounces", self.bounces.into(), MAX_BOUNCES.into()),
             ("tile", self.tile.map_or(1, u64::from), MAX_SIDE.into()),
             ("chunk", self.chunk.into(), u32::MAX.into()),
@@ -181,11 +203,22 @@ impl Settings {
         if let Some(limit) = self.clamp.filter(|limit| !(limit.is_finite() && *limit > 0.0)) {
             return Err(Error::Usage(format!("clamp must be a finite number > 0, not {limit}")));
         }
+        if let Some(target) = self.noise.filter(|target| !(target.is_finite() && *target > 0.0)) {
+            return Err(Error::Usage(format!("noise must be a finite number > 0, not {target}")));
+        }
+        if let Some(time) = self.time.filter(|&time| time < MIN_TIME) {
+            return Err(Error::Usage(format!("time must be at least {MIN_TIME:?}, not {time:?}")));
+        }
         if self.accel == AccelKind::Embree && !cfg!(feature = "embree") {
             return Err(no_embree());
         }
         check_isa(self.isa)?;
         memory::check(self)
+    }
+
+    /// Whether something else than the number of samples may end the render.
+    fn has_other_end(&self) -> bool {
+        self.noise.is_some() || self.time.is_some()
     }
 
     /// The threads that will be used.
@@ -203,14 +236,29 @@ impl Settings {
 }
 
 /// How far a render is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
     /// Samples taken, of all pixels.
     pub samples: u64,
-    /// Samples to be taken.
+    /// Samples to be taken, at most.
     pub total: u64,
     /// Rays traced.
     pub rays: u64,
+    /// What is known about the error, after the last pass.
+    pub outlook: Outlook,
+}
+
+/// Why a render has ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ended {
+    /// All samples are taken, or the noise is low enough.
+    Complete,
+    /// The noise is not low enough after the most samples.
+    OutOfSamples,
+    /// The time was up first.
+    OutOfTime,
+    /// It was cancelled.
+    Cancelled,
 }
 
 /// Somebody who follows a render. Called from all threads.
@@ -227,7 +275,9 @@ pub trait Watch: Sync {
 pub struct Rendered {
     /// The sums of all samples.
     pub film: Film,
-    /// What was counted for the samples that the film holds. Dropped samples, which were not finite or negative, count
+    /// Samples taken, of all pixels; with [`Settings::noise`] also those which only decided where blocks stopped.
+    pub samples: u64,
+    /// What was counted for these samples. Dropped samples, which were not finite or negative, count
     /// as black, so that all pixels have the same number of samples; there should be none.
     pub counters: Counters,
     /// The limit of the samples' components.
@@ -235,8 +285,8 @@ pub struct Rendered {
     /// How far the picture is from the truth, estimated from the film if its eight scrambles have their first round,
     /// else as [`Settings::error_estimate`] says; `None` without either.
     pub error: Option<PictureError>,
-    /// Whether it was stopped before all samples were taken.
-    pub cancelled: bool,
+    /// Why it has ended.
+    pub ended: Ended,
     /// Seconds to build the accelerator.
     pub build_seconds: f64,
     /// Seconds from the first ray to the last.

@@ -1,7 +1,7 @@
 //! The error of one pixel from the means of its scrambles.
 
-use super::Film;
 use super::student::quantile;
+use super::{Film, HALVES};
 use crate::sampling::SCRAMBLES;
 
 /// How far a pixel is from the truth. All is about the mean of its components, as radiance.
@@ -11,7 +11,7 @@ pub struct ErrorBar {
     pub mean: f64,
     /// Of the mean.
     pub standard_error: f64,
-    /// Of the standard error: one less than there are scrambles.
+    /// Of the standard error: the scrambles less one for each mean that was taken.
     pub degrees: f64,
     /// Whether one scramble differs so much from the others that Student's interval is likely too narrow.
     pub is_doubtful: bool,
@@ -28,20 +28,40 @@ impl ErrorBar {
     /// With weights w = n_r / n the mean is that of all samples, and the sum of w (m_r - m)^2 / 7 estimates its variance
     /// without bias if the variance of m_r goes as 1 / n_r; if it falls faster, it is a little too large.
     pub fn new(sums: &[f64; SCRAMBLES], counts: &[u64; SCRAMBLES]) -> Option<ErrorBar> {
+        ErrorBar::of_groups(sums, counts, 1)
+    }
+
+    /// The same of the mean of the means of both halves of the scrambles: see [`BLOCK`](super::BLOCK).
+    pub fn of_halves(sums: &[f64; SCRAMBLES], counts: &[u64; SCRAMBLES]) -> Option<ErrorBar> {
+        ErrorBar::of_groups(sums, counts, HALVES)
+    }
+
+    /// Of the mean of the means of so many groups, to which the scrambles belong in turn.
+    fn of_groups(sums: &[f64; SCRAMBLES], counts: &[u64; SCRAMBLES], groups: usize) -> Option<ErrorBar> {
         if counts.contains(&0) {
             return None;
         }
-        let samples = counts.iter().sum::<u64>() as f64;
-        let mean = sums.iter().sum::<f64>() / samples;
-        let squares: [f64; SCRAMBLES] = std::array::from_fn(|r| {
-            let apart = sums[r] / counts[r] as f64 - mean;
-            counts[r] as f64 / samples * (apart * apart)
-        });
+        let (mut mean, mut squares) = (0.0, [0.0; SCRAMBLES]);
+        let each = 1.0 / groups as f64;
+        for group in 0..groups {
+            let members = || (group..SCRAMBLES).step_by(groups);
+            let samples = members().map(|r| counts[r]).sum::<u64>() as f64;
+            let of_group = members().map(|r| sums[r]).sum::<f64>() / samples;
+            mean += each * of_group;
+            for r in members() {
+                let apart = each * (sums[r] / counts[r] as f64 - of_group);
+                squares[r] = counts[r] as f64 / samples * (apart * apart);
+            }
+        }
         let total = squares.iter().sum::<f64>();
-        let degrees = (SCRAMBLES - 1) as f64;
+        let degrees_each = (SCRAMBLES / groups - 1) as f64;
         let largest = squares.iter().fold(0.0, |a: f64, &b| a.max(b));
-        let is_doubtful = largest > OUTLIER * total;
-        let bar = ErrorBar { mean, standard_error: (total / degrees).sqrt(), degrees, is_doubtful };
+        let bar = ErrorBar {
+            mean,
+            standard_error: (total / degrees_each).sqrt(),
+            degrees: degrees_each * groups as f64,
+            is_doubtful: largest > OUTLIER * total,
+        };
         (bar.standard_error.is_finite() && mean.is_finite()).then_some(bar)
     }
 
@@ -57,10 +77,13 @@ impl Film {
         self.error_bar_of(pixel, &self.counts())
     }
 
-    /// [`Film::error_bar`] with the film's counts, which are the same for all pixels.
+    /// [`Film::error_bar`] with the film's counts, which are the same for all pixels where no block has stopped.
     pub(super) fn error_bar_of(&self, pixel: usize, counts: &[u64; SCRAMBLES]) -> Option<ErrorBar> {
         let mut sums = [0.0; SCRAMBLES];
         self.nodes.iter().for_each(|node| node.sums.greys.add_to(&mut sums, pixel));
-        ErrorBar::new(&sums, counts)
+        match self.stopped_counts(pixel) {
+            Some(counts) => ErrorBar::of_halves(&sums, &counts),
+            None => ErrorBar::new(&sums, counts),
+        }
     }
 }

@@ -7,11 +7,13 @@
 
 mod error_bar;
 mod picture_error;
+mod stops;
 mod student;
 mod sums;
 
 pub use error_bar::ErrorBar;
 pub use picture_error::{Estimate, PictureError, PictureErrorSum, Pixels};
+pub use stops::{BLOCK, HALVES, Stops, samples_of_halves};
 pub use student::quantile;
 pub(crate) use sums::grey;
 pub use sums::{Greys, Sums};
@@ -31,7 +33,7 @@ struct Node {
     sums: Sums,
 }
 
-/// The sums of a picture's samples, one a pixel; every pixel has the same number of samples.
+/// The sums of a picture's samples, one a pixel; every pixel has the same number of samples, unless blocks have stopped.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Film {
     width: u32,
@@ -39,12 +41,14 @@ pub struct Film {
     chunk: u64,
     /// Ascending by `first`, without overlap.
     nodes: Vec<Node>,
+    /// Where blocks have stopped.
+    stops: Option<Stops>,
 }
 
 impl Film {
     /// A film without samples, of `width` x `height` pixels and `chunk` > 0 samples a chunk.
     pub fn new(width: u32, height: u32, chunk: u64) -> Film {
-        Film { width, height, chunk, nodes: Vec::new() }
+        Film { width, height, chunk, nodes: Vec::new(), stops: None }
     }
 
     /// Pixels in a row.
@@ -57,12 +61,12 @@ impl Film {
         self.height
     }
 
-    /// Samples that every pixel has.
+    /// Samples that every pixel has, or the most that one has where blocks have stopped.
     pub fn samples(&self) -> u64 {
         self.nodes.iter().map(|node| node.sums.samples).sum()
     }
 
-    /// Samples that every pixel has in each scramble; none where that is not known.
+    /// Samples that every pixel has in each scramble, where no block has stopped; none where that is not known.
     pub fn counts(&self) -> [u64; SCRAMBLES] {
         if self.nodes.iter().any(|node| node.sums.greys == Greys::Unknown) {
             return [0; SCRAMBLES];
@@ -93,7 +97,15 @@ impl Film {
     pub fn means(&self) -> impl Iterator<Item = Rgb> + '_ {
         let pixels = if self.nodes.is_empty() { 0 } else { self.width as usize * self.height as usize };
         let weight = 1.0 / self.samples().max(1) as f64;
-        (0..pixels).map(move |pixel| self.sum(pixel) * weight)
+        (0..pixels).map(move |pixel| self.mean(pixel, weight))
+    }
+
+    /// The mean of a pixel, given one over the number of samples.
+    fn mean(&self, pixel: usize, weight: f64) -> Rgb {
+        match self.stopped_counts(pixel) {
+            Some(counts) => self.mean_of_halves(pixel, &counts),
+            None => self.sum(pixel) * weight,
+        }
     }
 
     /// The sum of a pixel's samples, counted row by row from the top left.

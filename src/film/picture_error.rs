@@ -175,7 +175,7 @@ impl Film {
         for (pixel, stands_for) in pixels {
             let bar = self.error_bar_of(pixel, &counts)?;
             let variance = bar.standard_error * bar.standard_error;
-            let relative = variance * relative_weight(self.sum(pixel) * weight, bar.mean);
+            let relative = variance * relative_weight(self.mean(pixel, weight), bar.mean);
             sum.add(stands_for, relative, variance);
             sum.add_mean(stands_for * bar.mean);
         }
@@ -186,7 +186,7 @@ impl Film {
     pub(crate) fn total(&self) -> f64 {
         let width = self.width as usize;
         let weight = 1.0 / self.samples().max(1) as f64;
-        let row = |y: usize| (y * width..(y + 1) * width).map(|pixel| grey(self.sum(pixel) * weight)).sum();
+        let row = |y: usize| (y * width..(y + 1) * width).map(|pixel| grey(self.mean(pixel, weight))).sum();
         let rows: Vec<f64> = (0..self.height as usize).into_par_iter().map(row).collect();
         rows.iter().sum()
     }

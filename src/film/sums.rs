@@ -8,8 +8,10 @@ use crate::sampling::SCRAMBLES;
 pub struct Sums {
     /// Samples per pixel.
     pub samples: u64,
-    /// Radiance, one sum a pixel, row by row from the top left.
+    /// Radiance, one sum a pixel, row by row from the top left; where blocks may stop, of the even scrambles.
     pub radiance: Vec<Rgb>,
+    /// The same of the odd scrambles, where blocks may stop; else empty.
+    pub odd: Vec<Rgb>,
     /// The same by scramble.
     pub greys: Greys,
     /// Samples per pixel in each scramble.
@@ -30,7 +32,7 @@ pub enum Greys {
 impl Sums {
     /// Sums that can't tell their error.
     pub fn plain(samples: u64, radiance: Vec<Rgb>) -> Sums {
-        Sums { samples, radiance, greys: Greys::Unknown, counts: [0; SCRAMBLES] }
+        Sums { samples, radiance, odd: Vec::new(), greys: Greys::Unknown, counts: [0; SCRAMBLES] }
     }
 
     /// Sums of samples that all lie in one scramble.
@@ -38,16 +40,23 @@ impl Sums {
         let greys = radiance.iter().map(|&sum| grey(sum) as f32).collect();
         let mut counts = [0; SCRAMBLES];
         counts[scramble] = samples;
-        Sums { samples, radiance, greys: Greys::One(scramble, greys), counts }
+        Sums { samples, radiance, odd: Vec::new(), greys: Greys::One(scramble, greys), counts }
+    }
+
+    /// The radiance of a half of the scrambles.
+    pub(super) fn half(&self, odd: bool) -> &[Rgb] {
+        if odd { &self.odd } else { &self.radiance }
     }
 
     /// The sums of both.
     pub(super) fn join(self, other: Sums) -> Sums {
-        let Sums { samples, mut radiance, greys, counts } = self;
+        let Sums { samples, mut radiance, mut odd, greys, counts } = self;
         radiance.iter_mut().zip(&other.radiance).for_each(|(sum, &other)| *sum += other);
+        odd.iter_mut().zip(&other.odd).for_each(|(sum, &other)| *sum += other);
         Sums {
             samples: samples + other.samples,
             radiance,
+            odd,
             greys: greys.join(other.greys),
             counts: std::array::from_fn(|i| counts[i] + other.counts[i]),
         }

@@ -22,7 +22,8 @@ const FEWEST: u64 = 64;
 /// pixel.
 pub(super) struct ErrorPixels {
     all: Vec<ErrorPixel>,
-    pixels: f64,
+    /// Of the picture.
+    pub(super) pixels: f64,
 }
 
 #[derive(Clone, Copy)]
@@ -121,14 +122,16 @@ impl ErrorPixels {
         total
     }
 
-    /// The error of the picture that a film holds, of its own scrambles if they are complete.
-    pub(super) fn error(&self, film: &Film, has_scrambles: bool) -> Option<PictureError> {
-        if has_scrambles {
-            return film.picture_error();
-        }
+    /// The error of the picture that a film holds.
+    pub(super) fn error(&self, film: &Film) -> Option<PictureError> {
         let mut total = self.estimate(film.samples(), |pixel| film.sum(pixel));
         total.add_mean(film.total());
         total.finish(Pixels::Some { of: self.pixels })
+    }
+
+    /// The chosen pixels, and how many each stands for.
+    pub(super) fn chosen(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+        self.all.iter().map(|pixel| (pixel.number, pixel.stands_for))
     }
 }
 

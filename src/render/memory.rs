@@ -1,32 +1,30 @@
 //! What a film takes, and whether the machine has it.
 
 use super::Settings;
+use super::cells::Layout;
 use crate::error::{Error, Result};
 use crate::film::Film;
 use crate::math::Rgb;
 use crate::sampling::SCRAMBLES;
 use std::fs;
 
-/// The most bytes that the film and its picture take at once.
+/// The most bytes that the film and its picture take at once. Without a limit of samples, 65,536 are reckoned with.
 pub fn film_bytes(settings: &Settings) -> u64 {
     let pixels = u64::from(settings.width) * u64::from(settings.height);
     let chunk = u64::from(settings.chunk.max(1));
+    let samples = if settings.samples == 0 { 1 << 16 } else { settings.samples };
     let radiance = size_of::<Rgb>() as u64;
-    // What tells the error: one number a pixel in nodes within one scramble, eight in others.
-    let errors = |samples: u64| match settings.scrambles().only(0..samples) {
-        Some(_) => size_of::<f32>() as u64,
-        None => (size_of::<f32>() * SCRAMBLES) as u64,
+    let bytes = |samples: u64| match Layout::new(settings, 0..samples.max(1)) {
+        Layout::Plain(_) => radiance + size_of::<f32>() as u64,
+        Layout::Scrambled => radiance + (size_of::<f32>() * SCRAMBLES) as u64,
+        Layout::Halved => 2 * radiance + (size_of::<f32>() * SCRAMBLES) as u64,
     };
-    let nodes = Film::most_nodes(settings.samples.div_ceil(chunk));
-    let film: u64 = (0..nodes)
-        .map(|node| radiance + errors(chunk.saturating_mul(1 << node).min(settings.samples.max(1))))
-        .sum();
+    let nodes = Film::most_nodes(samples.div_ceil(chunk));
+    let film: u64 = (0..nodes).map(|node| bytes(chunk.saturating_mul(1 << node).min(samples))).sum();
     // Beside it the chunk under way and its last complete pass; afterwards the encoded picture (24 bytes a pixel for EXR).
-    let under_way = match settings.scrambles().only(0..chunk) {
-        Some(_) => radiance,
-        None => radiance + (size_of::<f64>() * SCRAMBLES) as u64,
-    };
-    pixels.saturating_mul(film + 2 * under_way)
+    let under_way = Layout::new(settings, 0..chunk).stride() * size_of::<f64>();
+    let blocks = if settings.noise.is_some() { SCRAMBLES * size_of::<f64>() } else { 0 };
+    pixels.saturating_mul(film + (2 * under_way + blocks) as u64)
 }
 
 /// Whether the film fits into the memory that is free now; passes where the system does not say.

@@ -1,15 +1,16 @@
 //! A plane of sums cut into tiles that own their pixels.
 
-use super::cells::{Cells, GREYS};
+use super::adaptive::Adaptive;
+use super::cells::{Cells, Layout};
 use super::{FIREFLY, FIREFLY_BEFORE};
 use crate::film::grey;
 use crate::integrator::Counters;
 use crate::math::Rgb;
 use crate::sampling::{Place, Scrambles};
-use std::ops::Range;
+use std::ops::{AddAssign, Range};
 
 /// Samples that every pixel gets.
-pub(super) struct Pass {
+pub(super) struct Pass<'a> {
     /// Their indices.
     pub(super) samples: Range<u64>,
     /// How many of the same chunk every pixel has already.
@@ -18,70 +19,88 @@ pub(super) struct Pass {
     pub(super) clamp: Option<f64>,
     /// Where they lie.
     pub(super) scrambles: Scrambles,
+    /// Which blocks get them, if not all.
+    pub(super) blocks: Option<&'a Adaptive>,
+}
+
+/// What a tile did.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Work {
+    /// Samples of one pixel.
+    pub(super) samples: u64,
+    pub(super) counters: Counters,
 }
 
 /// A rectangle of a plane of cells.
 pub(super) struct Tile<'p> {
     x: u32,
     y: u32,
-    stride: usize,
+    layout: Layout,
     rows: Vec<&'p mut [f64]>,
 }
 
 /// Cuts a plane with rows of `width` pixels into tiles of `side` x `side` pixels, fewer at the right and lower edges.
 pub(super) fn split(cells: &mut Cells, width: u32, side: u32) -> Vec<Tile<'_>> {
-    let Cells { values, stride, .. } = cells;
-    let band_values = width as usize * side as usize * *stride;
+    let Cells { values, layout, .. } = cells;
+    let layout = *layout;
+    let band_values = width as usize * side as usize * layout.stride();
     let bands = values.chunks_mut(band_values).zip((0..).step_by(side as usize));
-    bands.flat_map(|(band, y)| split_band(band, *stride, width, side, y)).collect()
+    bands.flat_map(|(band, y)| split_band(band, layout, width, side, y)).collect()
 }
 
-fn split_band(band: &mut [f64], stride: usize, width: u32, side: u32, y: u32) -> Vec<Tile<'_>> {
+fn split_band(band: &mut [f64], layout: Layout, width: u32, side: u32, y: u32) -> Vec<Tile<'_>> {
     let mut tiles: Vec<Tile<'_>> =
-        (0..width).step_by(side as usize).map(|x| Tile { x, y, stride, rows: Vec::new() }).collect();
-    for row in band.chunks_mut(width as usize * stride) {
-        let parts = row.chunks_mut(side as usize * stride);
+        (0..width).step_by(side as usize).map(|x| Tile { x, y, layout, rows: Vec::new() }).collect();
+    for row in band.chunks_mut(width as usize * layout.stride()) {
+        let parts = row.chunks_mut(side as usize * layout.stride());
         tiles.iter_mut().zip(parts).for_each(|(tile, part)| tile.rows.push(part));
     }
     tiles
 }
 
 impl Tile<'_> {
-    /// The number of pixels.
-    pub(super) fn pixels(&self) -> u64 {
-        self.rows.iter().map(|row| (row.len() / self.stride) as u64).sum()
-    }
-
     /// Adds the samples of a pass to every pixel, in the order of their indices; `None` if `cancelled`, which is asked
     /// before every pixel: in a bright closed scene one may take a second.
-    pub(super) fn sum<F>(&mut self, pass: &Pass, sample: &F, cancelled: impl Fn() -> bool) -> Option<Counters>
+    pub(super) fn sum<F>(&mut self, pass: &Pass, sample: &F, cancelled: impl Fn() -> bool) -> Option<Work>
     where
         F: Fn(u32, u32, u64, &mut Counters) -> Rgb,
     {
-        let mut counters = Counters::default();
+        let mut work = Work::default();
+        let layout = self.layout;
         for (row, y) in self.rows.iter_mut().zip(self.y..) {
-            for (cell, x) in row.chunks_exact_mut(self.stride).zip(self.x..) {
+            for (cell, x) in row.chunks_exact_mut(layout.stride()).zip(self.x..) {
+                if pass.blocks.is_some_and(|blocks| !blocks.takes(x, y)) {
+                    continue;
+                }
                 if cancelled() {
                     return None;
                 }
-                let mut sum = Rgb::new(cell[0], cell[1], cell[2]);
-                let firefly = pass.firefly(sum);
+                let mut sums = layout.radiance(cell);
+                let firefly = pass.firefly(sums[0] + sums[1]);
                 for index in pass.samples.clone() {
                     let place = pass.scrambles.place(index);
-                    let radiance = pass.take(x, y, place, sample, firefly, &mut counters);
-                    sum += radiance;
-                    if let Some(greys) = cell.get_mut(GREYS..).filter(|greys| !greys.is_empty()) {
-                        greys[place.scramble] += grey(radiance);
+                    let radiance = pass.take(x, y, place, sample, firefly, &mut work.counters);
+                    sums[layout.half(place.scramble)] += radiance;
+                    if let Some(sum) = cell[layout.greys()].get_mut(place.scramble) {
+                        *sum += grey(radiance);
                     }
                 }
-                cell[..GREYS].copy_from_slice(&sum.to_array());
+                layout.set_radiance(cell, sums);
+                work.samples += pass.samples.end - pass.samples.start;
             }
         }
-        Some(counters)
+        Some(work)
     }
 }
 
-impl Pass {
+impl AddAssign for Work {
+    fn add_assign(&mut self, other: Work) {
+        self.samples += other.samples;
+        self.counters += other.counters;
+    }
+}
+
+impl Pass<'_> {
     /// What the sample at a place adds to its pixel.
     #[inline]
     pub(super) fn take<F>(
