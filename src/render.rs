@@ -127,8 +127,7 @@ pub struct Settings {
     /// where the picture has as many.
     pub error_estimate: bool,
     /// The relative error, > 0, at which blocks of 16 x 16 pixels stop, from [`NOISE_AFTER`] samples on: the root of the mean
-    /// over a block's pixels of variance / (mean^2 + 0.01), of the mean of the components. Part of what determines the
-    /// picture.
+    /// over a block's pixels and components of variance / (mean^2 + 0.01). Part of what determines the picture.
     pub noise: Option<f64>,
     /// How long sampling may take, at least [`MIN_TIME`]. One sample a pixel is taken in any case. The picture is that of a
     /// render whose `samples` are what this one took.
@@ -229,7 +228,16 @@ impl Settings {
     /// The side of the tiles that will be used: as asked, else 32 pixels, or less in a small picture so that every
     /// thread gets several.
     pub fn tile_side(&self) -> u32 {
-        let tiles = |side: u32| u64::from(self.width.div_ceil(side)) * u64::from(self.height.div_ceil(side));
+        self.tile_side_for(u64::from(self.width) * u64::from(self.height))
+    }
+
+    /// The same where only so many pixels, close together, still take samples.
+    fn tile_side_for(&self, pixels: u64) -> u32 {
+        let all = u64::from(self.width) * u64::from(self.height);
+        let tiles = |side: u32| {
+            let tiles = u64::from(self.width.div_ceil(side)) * u64::from(self.height.div_ceil(side));
+            tiles * pixels / all
+        };
         let wanted = 16 * self.thread_count() as u64;
         self.tile.unwrap_or_else(|| [32, 16, 8].into_iter().find(|&side| tiles(side) >= wanted).unwrap_or(4))
     }

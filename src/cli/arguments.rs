@@ -10,7 +10,9 @@ pub(super) use values::{ACCELS, BVHS, ISAS, PRECISIONS, name_of};
 
 use crate::accel::{BvhQuality, Isa, Precision};
 use crate::error::Error;
-use crate::render::{AccelKind, MAX_BOUNCES, MAX_SAMPLES, MAX_SIDE, MAX_THREADS, Settings};
+use crate::render::{
+    AccelKind, MAX_BOUNCES, MAX_SAMPLES, MAX_SIDE, MAX_THREADS, SHORT_SCRAMBLE_LENGTH, Settings,
+};
 use crate::sampling::SamplerKind;
 use clap::{CommandFactory, FromArgMatches, Parser};
 use std::ffi::OsString;
@@ -128,6 +130,9 @@ pub(super) struct RenderArguments {
     /// The best picture within this time of sampling, such as 30, 500ms or 2m [default: no limit]
     #[arg(long, value_name = "T", allow_negative_numbers = true, value_parser = time)]
     time: Option<Duration>,
+    /// Also write the error of every pixel: an .exr with its mean, standard error and half 95 % interval in R, G and B
+    #[arg(long, value_name = "FILE")]
+    error_bars: Option<PathBuf>,
     /// Whether the error of the picture is estimated from a few pixels where its samples alone can't tell it, for about 3 %
     /// more time [default: on]
     #[arg(long, value_name = "on|off", value_parser = choice(&SWITCH))]
@@ -148,6 +153,8 @@ pub(super) struct RenderArguments {
 pub(super) struct Job {
     pub(super) scene: PathBuf,
     pub(super) image: PathBuf,
+    /// Where the errors of the pixels go.
+    pub(super) error_bars: Option<PathBuf>,
     pub(super) settings: Settings,
     /// In stops.
     pub(super) exposure: f64,
@@ -207,11 +214,13 @@ impl RenderArguments {
             light_sampling: self.light_sampling.unwrap_or(defaults.light_sampling),
             clamp: self.clamp,
             error_estimate: self.error_estimate.unwrap_or(true),
+            scramble_length: self.error_bars.is_some().then_some(SHORT_SCRAMBLE_LENGTH),
             noise: self.noise,
             time: self.time,
             ..defaults
         };
-        Ok(Job { scene, image, settings, exposure: self.exposure, quiet: self.quiet, json: self.json })
+        let RenderArguments { exposure, quiet, json, error_bars, .. } = self;
+        Ok(Job { scene, image, error_bars, settings, exposure, quiet, json })
     }
 
     /// How many positional arguments there are.

@@ -5,13 +5,14 @@ use super::console::{digits, duration, say, with_prefix};
 use super::event::{self, Event, JobRecord, Seconds, Summary, per_second};
 use super::progress::Reporter;
 use super::{describe, findings, interrupt};
-use crate::error::Error;
+use crate::error::{Error, Result};
 use crate::film::PictureError;
 use crate::output;
-use crate::picture::Destination;
+use crate::picture::{Destination, Format};
 use crate::render::{Ended, Rendered, in_pool, render};
 use crate::scene;
 use crate::world::World;
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 /// The exit code of a picture that is noisier than asked for because the time was up.
@@ -22,6 +23,7 @@ pub(super) fn run(job: &Job) -> anyhow::Result<u8> {
     // Whatever can be known to fail fails before the work.
     job.settings.check()?;
     let destination = Destination::new(&job.image)?;
+    let error_bars = job.error_bars.as_deref().map(error_bars).transpose()?;
     interrupt::listen(destination.partial_path().to_path_buf())?;
 
     let (scene, load) = timed(|| in_pool(&job.settings, || scene::load(&job.scene)));
@@ -52,6 +54,13 @@ pub(super) fn run(job: &Job) -> anyhow::Result<u8> {
     }
     let (written, write) = timed(|| output::write(&rendered.film, job.exposure, &destination));
     written?;
+    if let Some(error_bars) = error_bars
+        && !output::write_error_bars(&rendered.film, &error_bars)?
+    {
+        say(
+            "warning: no error bars were written: they need 16 samples, none of which may be too large for f32",
+        );
+    }
 
     let build = compile + rendered.build_seconds;
     let seconds = Seconds { load, build, render: rendered.render_seconds, write };
@@ -66,6 +75,15 @@ pub(super) fn run(job: &Job) -> anyhow::Result<u8> {
         Ended::OutOfTime if job.settings.noise.is_some() => NOISE_MISSED,
         _ => 0,
     })
+}
+
+/// Where the errors of the pixels go.
+fn error_bars(path: &Path) -> Result<Destination> {
+    let destination = Destination::new(path)?;
+    match destination.format() {
+        Format::Exr => Ok(destination),
+        Format::Png => Err(Error::Usage(format!("error bars need an .exr, not {}", path.display()))),
+    }
 }
 
 /// Says how it ended.

@@ -12,6 +12,7 @@ mod student;
 mod sums;
 
 pub use error_bar::ErrorBar;
+pub(crate) use picture_error::relative_weight;
 pub use picture_error::{Estimate, PictureError, PictureErrorSum, Pixels};
 pub use stops::{BLOCK, HALVES, Stops, samples_of_halves};
 pub use student::quantile;

@@ -192,8 +192,9 @@ impl Film {
     }
 }
 
-/// What makes a variance of the mean of a pixel's components the expectation of (x - truth)^2 / (truth^2 + 0.01).
-fn relative_weight(mean: Rgb, grey: f64) -> f64 {
+/// What makes a variance of the mean of a pixel's components the expectation of (x - truth)^2 / (truth^2 + 0.01), mean of
+/// the components, where the error of each is proportional to it.
+pub(crate) fn relative_weight(mean: Rgb, grey: f64) -> f64 {
     if grey == 0.0 {
         return 0.0;
     }

@@ -4,10 +4,10 @@
 //! half is sampled until both have stopped, since the other's end depends on it; what it takes after its own end enters no
 //! picture. So the mean of the picture is that of a render without a target, whatever the scene.
 
+use super::Settings;
 use super::cells::{Cells, Layout};
-use super::{Settings, memory};
 use crate::error::Result;
-use crate::film::{BLOCK, HALVES, Stops, samples_of_halves};
+use crate::film::{BLOCK, HALVES, Stops, relative_weight, samples_of_halves};
 use crate::sampling::{SCRAMBLES, Scrambles};
 use std::ops::Range;
 
@@ -20,8 +20,8 @@ pub(super) struct Adaptive {
     scrambles: Scrambles,
     width: u32,
     height: u32,
-    /// What each pixel's scrambles have summed, in the picture or not.
-    greys: Vec<f64>,
+    /// The cells of all samples, in the picture or not.
+    sums: Cells,
     blocks: Vec<Block>,
     /// Samples that a pixel of a block which has not stopped has.
     samples: u64,
@@ -45,7 +45,7 @@ impl Adaptive {
             scrambles: settings.scrambles(),
             width,
             height,
-            greys: memory::zeros(settings, SCRAMBLES)?,
+            sums: Cells::new(settings, 0..1)?,
             blocks: vec![block; count],
             samples: 0,
         })
@@ -99,8 +99,7 @@ impl Adaptive {
             let closed = self.blocks[number].stops.map(|stop| stop.is_some());
             for pixel in self.pixels(number) {
                 let cell = cells.cell_mut(pixel);
-                let sums = &mut self.greys[pixel * SCRAMBLES..][..SCRAMBLES];
-                sums.iter_mut().zip(&cell[Layout::Halved.greys()]).for_each(|(sum, grey)| *sum += grey);
+                self.sums.cell_mut(pixel).iter_mut().zip(&*cell).for_each(|(sum, value)| *sum += value);
                 (0..HALVES).filter(|&half| closed[half]).for_each(|half| Layout::clear_half(cell, half));
             }
             if is_complete && self.samples >= NOISE_AFTER {
@@ -129,8 +128,7 @@ impl Adaptive {
         }
     }
 
-    /// The squared relative error of a block of the picture if it stopped now, as one half sees it: the mean over its pixels
-    /// of variance / (mean^2 + 0.01), of the mean of the components.
+    /// The squared relative error of a block of the picture if it stopped now, as one half sees it.
     fn square(&self, number: usize, half: usize, counts: &[u64; SCRAMBLES]) -> f64 {
         let samples = samples_of_halves(counts).map(|samples| samples as f64);
         // The picture is the mean of both halves, whose samples vary alike.
@@ -139,13 +137,16 @@ impl Adaptive {
         let degrees = (SCRAMBLES / HALVES - 1) as f64;
         let (mut total, mut pixels) = (0.0, 0.0);
         for pixel in self.pixels(number) {
-            let sums = &self.greys[pixel * SCRAMBLES..][..SCRAMBLES];
+            let cell = self.sums.cell(pixel);
+            let sums = &cell[Layout::Halved.greys()];
             let mean = scrambles().map(|r| sums[r]).sum::<f64>() / samples[half];
             let squares = scrambles().map(|r| {
                 let apart = sums[r] / counts[r] as f64 - mean;
                 counts[r] as f64 * (apart * apart)
             });
-            total += share * (squares.sum::<f64>() / degrees) / (mean * mean + 0.01);
+            let variance = share * (squares.sum::<f64>() / degrees);
+            let radiance = Layout::Halved.radiance(cell)[half] * (1.0 / samples[half]);
+            total += variance * relative_weight(radiance, mean);
             pixels += 1.0;
         }
         total / pixels

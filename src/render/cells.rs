@@ -107,6 +107,12 @@ impl Cells {
     }
 
     /// That of a pixel.
+    pub(super) fn cell(&self, pixel: usize) -> &[f64] {
+        let stride = self.layout.stride();
+        &self.values[pixel * stride..][..stride]
+    }
+
+    /// That of a pixel.
     pub(super) fn cell_mut(&mut self, pixel: usize) -> &mut [f64] {
         let stride = self.layout.stride();
         &mut self.values[pixel * stride..][..stride]
@@ -114,7 +120,7 @@ impl Cells {
 
     /// The sum of a pixel's radiance.
     pub(super) fn sum(&self, pixel: usize) -> Rgb {
-        let [a, b] = self.layout.radiance(&self.values[pixel * self.layout.stride()..]);
+        let [a, b] = self.layout.radiance(self.cell(pixel));
         a + b
     }
 

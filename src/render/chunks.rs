@@ -96,13 +96,16 @@ where
     }
 
     /// The sums of a chunk, and why they hold fewer samples than wanted. Passes double what there is: 1, 1, 2, 4 ...
-    /// samples, or fewer where the time is short, added in the same order as in one go.
+    /// samples, or fewer where the time is short, added in the same order as in one go. Where blocks stop, few pixels may
+    /// be left, so all after the first chunk is one pass.
     fn chunk(&mut self, samples: Range<u64>) -> Result<(Cells, Option<Ended>)> {
         let mut cells = Cells::new(self.settings, samples.clone())?;
         let mut complete = cells.try_clone(self.settings)?;
+        let is_one_pass = self.blocks.is_some() && samples.start > 0;
         loop {
             let next = samples.start + cells.samples;
-            let wanted = cells.samples.max(1).min(samples.end - next);
+            let doubled = if is_one_pass { u64::MAX } else { cells.samples.max(1) };
+            let wanted = doubled.min(samples.end - next);
             if wanted == 0 {
                 return Ok((cells, None));
             }
@@ -128,11 +131,12 @@ where
         // Later the picture's own scrambles tell its error.
         let error_pixels = self.error_pixels.as_ref().filter(|_| samples.start < scrambles.first_round());
         let (clamp, blocks) = (self.settings.clamp, self.blocks.as_ref());
+        let side = self.settings.tile_side_for(self.open_pixels());
         let pass = Pass { samples, before: cells.samples, clamp, scrambles, blocks };
         let cancelled = || self.watch.cancelled() || self.pace.is_over();
         let (work, sets) = rayon::join(
             || {
-                tile::split(cells, self.settings.width, self.settings.tile_side())
+                tile::split(cells, self.settings.width, side)
                     .into_par_iter()
                     .with_max_len(1)
                     .map(|mut tile: Tile<'_>| {

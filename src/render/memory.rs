@@ -21,10 +21,10 @@ pub fn film_bytes(settings: &Settings) -> u64 {
     };
     let nodes = Film::most_nodes(samples.div_ceil(chunk));
     let film: u64 = (0..nodes).map(|node| bytes(chunk.saturating_mul(1 << node).min(samples))).sum();
-    // Beside it the chunk under way and its last complete pass; afterwards the encoded picture (24 bytes a pixel for EXR).
+    // Beside it the chunk under way and its last complete pass, and what blocks know of themselves; afterwards the encoded picture (24 bytes a pixel for EXR).
     let under_way = Layout::new(settings, 0..chunk).stride() * size_of::<f64>();
-    let blocks = if settings.noise.is_some() { SCRAMBLES * size_of::<f64>() } else { 0 };
-    pixels.saturating_mul(film + (2 * under_way + blocks) as u64)
+    let planes = if settings.noise.is_some() { 3 } else { 2 };
+    pixels.saturating_mul(film + (planes * under_way) as u64)
 }
 
 /// Whether the film fits into the memory that is free now; passes where the system does not say.
