@@ -44,6 +44,8 @@ pub enum Pixels {
     Some {
         /// Pixels of the picture.
         of: f64,
+        /// Values of a pixel less one.
+        degrees: f64,
     },
 }
 
@@ -84,7 +86,7 @@ impl PictureErrorSum {
     pub fn finish(&self, pixels: Pixels) -> Option<PictureError> {
         let all = match pixels {
             Pixels::All { .. } => self.count,
-            Pixels::Some { of } => of,
+            Pixels::Some { of, .. } => of,
         };
         let (relative, relative_degrees) = self.relative.mean(pixels, self.count)?;
         let (variance, variance_degrees) = self.variance.mean(pixels, self.count)?;
@@ -138,12 +140,13 @@ impl Weighted {
             return None;
         }
         let mean = self.w_x / self.w;
+        // An estimated variance s^2 of k degrees has the variance 2 s^4 / (k + 2), as estimated from itself.
+        let of_pixels = |degrees: f64| self.w2_x2 * 2.0 / (degrees + 2.0);
         let spread = match pixels {
-            // An estimated variance s^2 of k degrees has the variance 2 s^4 / (k + 2), as estimated from itself.
-            Pixels::All { degrees } => self.w2_x2 * 2.0 / (degrees + 2.0),
-            Pixels::Some { .. } => {
+            Pixels::All { degrees } => of_pixels(degrees),
+            Pixels::Some { degrees, .. } => {
                 let apart = self.w2_x2 - 2.0 * mean * self.w2_x + mean * mean * self.w2;
-                apart.max(0.0) * count / (count - 1.0).max(1.0)
+                (apart * count / (count - 1.0).max(1.0)).max(of_pixels(degrees))
             }
         };
         let spread = spread / (self.w * self.w);

@@ -9,7 +9,7 @@ use super::pace::Pace;
 use super::tile::{self, Pass, Tile, Work};
 use super::{Ended, Rendered, Settings, Watch};
 use crate::error::Result;
-use crate::film::{Film, PictureError, Pixels};
+use crate::film::{Film, PictureError};
 use crate::integrator::Counters;
 use crate::math::Rgb;
 use rayon::prelude::*;
@@ -224,6 +224,6 @@ where
         } else {
             pixels.estimate(samples, |pixel| self.film.sum(pixel) + cells.sum(pixel))
         };
-        sum.finish(Pixels::Some { of: pixels.pixels }).map(|error| error.relative.value)
+        sum.finish(pixels.kind()).map(|error| error.relative.value)
     }
 }

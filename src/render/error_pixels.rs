@@ -23,7 +23,7 @@ const FEWEST: u64 = 64;
 pub(super) struct ErrorPixels {
     all: Vec<ErrorPixel>,
     /// Of the picture.
-    pub(super) pixels: f64,
+    pixels: f64,
 }
 
 #[derive(Clone, Copy)]
@@ -126,7 +126,12 @@ impl ErrorPixels {
     pub(super) fn error(&self, film: &Film) -> Option<PictureError> {
         let mut total = self.estimate(film.samples(), |pixel| film.sum(pixel));
         total.add_mean(film.total());
-        total.finish(Pixels::Some { of: self.pixels })
+        total.finish(self.kind())
+    }
+
+    /// What they stand for.
+    pub(super) fn kind(&self) -> Pixels {
+        Pixels::Some { of: self.pixels, degrees: SETS as f64 }
     }
 
     /// The chosen pixels, and how many each stands for.

@@ -31,6 +31,11 @@ impl Scrambles {
         Scrambles { length: length.clamp(1, 1 << 32) }
     }
 
+    /// Points of each scramble in the first round.
+    pub fn length(self) -> u64 {
+        self.length
+    }
+
     /// From so many samples on every scramble has its first points.
     pub fn first_round(self) -> u64 {
         SCRAMBLES as u64 * self.length
