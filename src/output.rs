@@ -14,6 +14,23 @@ pub fn write(film: &Film, exposure: f64, destination: &Destination) -> Result<()
     destination.write(film.width(), film.height(), &pixels)
 }
 
+/// Writes the error of every pixel into an EXR: R the mean of its components, G the standard error of that, B half the width
+/// of the 95 % interval. Whether it could: the film needs samples in eight scrambles.
+pub fn write_error_bars(film: &Film, destination: &Destination) -> Result<bool> {
+    let pixels = film.width() as usize * film.height() as usize;
+    let bar = |pixel: usize| {
+        let bar = film.error_bar(pixel)?;
+        Some(
+            [bar.mean, bar.standard_error, bar.half_width()]
+                .map(|value| value.min(f64::from(f32::MAX)) as f32),
+        )
+    };
+    let Some(bars) = (0..pixels).map(bar).collect::<Option<Vec<[f32; 3]>>>() else { return Ok(false) };
+    let floats = bars.into_iter().flatten().collect();
+    destination.write(film.width(), film.height(), &Pixels::Floats(floats))?;
+    Ok(true)
+}
+
 /// The means of a film x 2^`exposure` (in stops), clipped to 0..1, sRGB-encoded, in 8 bits: R G B, row by row.
 pub fn display_bytes(film: &Film, exposure: f64) -> Vec<u8> {
     let factor = libm::exp2(exposure);

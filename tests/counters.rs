@@ -1,7 +1,7 @@
 use pathtracer::error::Error;
 use pathtracer::integrator::{Counters, FixedSum};
 use pathtracer::math::{EPSILON, Rgb};
-use pathtracer::render::{FIREFLY, Progress, Rendered, Settings, Watch, accumulate};
+use pathtracer::render::{Ended, FIREFLY, Progress, Rendered, Settings, Watch, accumulate};
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Stops a render once so many samples are taken.
@@ -159,7 +159,7 @@ fn samples_that_are_no_light_are_dropped_and_not_clamped() {
 fn a_cancelled_render_counts_what_its_film_holds() {
     let watch = StopAt(PIXELS * 36, AtomicU64::new(0));
     let rendered = accumulate(&clamped(64), &watch, spread).expect("no error");
-    assert!(rendered.cancelled);
+    assert_eq!(rendered.ended, Ended::Cancelled);
     let expected = run(&clamped(36), spread);
     assert_eq!((rendered.counters, rendered.clamp_bias()), (expected.counters, expected.clamp_bias()));
 }

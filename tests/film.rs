@@ -1,4 +1,4 @@
-use pathtracer::film::Film;
+use pathtracer::film::{Film, Sums};
 use pathtracer::math::Rgb;
 
 const CHUNK: u64 = 4;
@@ -13,7 +13,7 @@ fn sums(chunk: u64) -> Vec<Rgb> {
 fn film_of(chunks: impl IntoIterator<Item = u64>) -> Film {
     let mut film = Film::new(3, 2, CHUNK);
     for chunk in chunks {
-        film.add(chunk, CHUNK, sums(chunk)).expect("a chunk that is not there yet");
+        film.add(chunk, Sums::plain(CHUNK, sums(chunk))).expect("a chunk that is not there yet");
     }
     film
 }
@@ -74,7 +74,7 @@ fn three_parts_merge_in_any_order() {
 #[test]
 fn a_chunk_that_is_there_already_is_refused() {
     let mut film = film_of(0..6);
-    assert!(film.add(3, CHUNK, sums(3)).is_err());
+    assert!(film.add(3, Sums::plain(CHUNK, sums(3))).is_err());
     assert!(film.merge(film_of(5..7)).is_err());
     assert_eq!(film, film_of(0..6));
 }
@@ -84,14 +84,14 @@ fn a_film_of_another_size_is_refused() {
     let mut film = film_of(0..1);
     assert!(film.merge(Film::new(2, 3, CHUNK)).is_err());
     assert!(film.merge(Film::new(3, 2, CHUNK + 1)).is_err());
-    assert!(film.add(1, CHUNK + 1, sums(1)).is_err());
-    assert!(film.add(1, CHUNK, vec![Rgb::ZERO]).is_err());
+    assert!(film.add(1, Sums::plain(CHUNK + 1, sums(1))).is_err());
+    assert!(film.add(1, Sums::plain(CHUNK, vec![Rgb::ZERO])).is_err());
 }
 
 #[test]
 fn the_last_chunk_may_have_fewer_samples() {
     let mut film = film_of(0..3);
-    film.add(3, 1, sums(3)).expect("a chunk that is not there yet");
+    film.add(3, Sums::plain(1, sums(3))).expect("a chunk that is not there yet");
     assert_eq!(film.samples(), 3 * CHUNK + 1);
     // It does not enter the tree, where it would be taken for a whole chunk.
     let first = film.means().next().expect("six pixels");

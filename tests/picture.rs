@@ -1,5 +1,5 @@
 use pathtracer::error::Error;
-use pathtracer::film::Film;
+use pathtracer::film::{Film, Sums};
 use pathtracer::math::Rgb;
 use pathtracer::output::{self, display_bytes, linear_floats, quantize, srgb_encode};
 use pathtracer::picture::{Destination, Format, Pixels};
@@ -14,7 +14,7 @@ fn folder() -> TempDir {
 /// A film of two pixels with one sample.
 fn film(left: Rgb, right: Rgb) -> Film {
     let mut film = Film::new(2, 1, 1);
-    film.add(0, 1, vec![left, right]).expect("the first chunk");
+    film.add(0, Sums::plain(1, vec![left, right])).expect("the first chunk");
     film
 }
 

@@ -1,8 +1,8 @@
 use pathtracer::error::Error;
-use pathtracer::film::Film;
+use pathtracer::film::{Film, Sums};
 use pathtracer::integrator::Counters;
 use pathtracer::math::Rgb;
-use pathtracer::render::{Progress, Rendered, Settings, Watch, accumulate};
+use pathtracer::render::{Ended, Progress, Rendered, Settings, Watch, accumulate};
 use std::sync::Mutex;
 
 /// Follows a render, and stops it once so many samples are taken.
@@ -65,7 +65,7 @@ fn every_pixel_gets_its_own_samples() {
         let sum = |x, y| samples.clone().map(|i| synthetic(x, y, i, &mut Counters::default())).sum();
         let sums = (0..settings.height).flat_map(|y| (0..settings.width).map(move |x| (x, y)));
         let sums = sums.map(|(x, y)| sum(x, y)).collect();
-        film.add(chunk, samples.end - samples.start, sums).expect("chunks in order");
+        film.add(chunk, Sums::of_scramble(0, samples.end - samples.start, sums)).expect("chunks in order");
     }
     assert_eq!(run(&settings).film, film);
 }
@@ -81,7 +81,7 @@ fn rays_and_progress_are_counted() {
     // 5 x 3 tiles in each pass: of 1, 1, 2, 4 and 8 samples in the first chunk, of 1, 1 and 2 in the second.
     assert_eq!(seen.len(), 15 * 8);
     let last = seen.iter().max_by_key(|progress| progress.samples).expect("entries");
-    assert_eq!(*last, Progress { samples: total, total, rays: 3 * total });
+    assert_eq!((last.samples, last.total, last.rays), (total, total, 3 * total));
 }
 
 #[test]
@@ -104,7 +104,7 @@ fn a_cancelled_render_keeps_its_complete_chunks() {
     let settings = small(64);
     let pixels = 37 * 23;
     let rendered = accumulate(&settings, &Limit::new(pixels * 32), synthetic).expect("no error");
-    assert!(rendered.cancelled);
+    assert_eq!(rendered.ended, Ended::Cancelled);
     assert_eq!(rendered.film, run(&small(32)).film);
     assert_eq!(rendered.counters.rays, 3 * pixels * 32);
 }
@@ -114,7 +114,7 @@ fn a_render_cancelled_in_its_first_chunk_keeps_its_complete_passes() {
     let pixels = 37 * 23;
     for taken in [1, 2, 4, 8] {
         let rendered = accumulate(&small(64), &Limit::new(pixels * taken), synthetic).expect("no error");
-        assert!(rendered.cancelled);
+        assert_eq!(rendered.ended, Ended::Cancelled);
         assert_eq!(rendered.film, run(&small(taken)).film);
     }
 }
@@ -122,7 +122,7 @@ fn a_render_cancelled_in_its_first_chunk_keeps_its_complete_passes() {
 #[test]
 fn a_render_that_is_cancelled_at_once_holds_nothing() {
     let rendered = accumulate(&small(64), &Limit::new(1), synthetic).expect("no error");
-    assert!(rendered.cancelled);
+    assert_eq!(rendered.ended, Ended::Cancelled);
     assert_eq!(rendered.film.samples(), 0);
     assert_eq!(rendered.film.means().count(), 0);
 }

@@ -55,6 +55,9 @@ mod identity;
 /// Meshes that several objects show: one copy, the same picture.
 mod instances;
 
+/// Error bars of pixels and pictures.
+mod errors;
+
 /// What is counted about the samples: fireflies, the limit and what it takes.
 mod counters;
 

@@ -10,13 +10,16 @@ pub(super) use values::{ACCELS, BVHS, ISAS, PRECISIONS, name_of};
 
 use crate::accel::{BvhQuality, Isa, Precision};
 use crate::error::Error;
-use crate::render::{AccelKind, MAX_BOUNCES, MAX_SAMPLES, MAX_SIDE, MAX_THREADS, Settings};
+use crate::render::{
+    AccelKind, MAX_BOUNCES, MAX_SAMPLES, MAX_SIDE, MAX_THREADS, SHORT_SCRAMBLE_LENGTH, Settings,
+};
 use crate::sampling::SamplerKind;
 use clap::{CommandFactory, FromArgMatches, Parser};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
-use values::{SAMPLERS, SWITCH, choice, positive, stops, whole};
+use std::time::Duration;
+use values::{SAMPLERS, SWITCH, choice, positive, stops, time, whole, whole_or_none};
 
 /// The positional arguments of a render, as messages name them.
 const POSITIONALS: [&str; 6] = ["SCENE", "WIDTH", "HEIGHT", "SAMPLES", "BOUNCES", "IMAGE"];
@@ -48,7 +51,8 @@ pub(super) struct Arguments {
 }
 
 const EXIT_CODES: &str = "A scene that is named like a command is reached by ./NAME.\n\
-    Exit codes: 0 done, 1 failure, 2 usage, 3 bad scene, 4 hits or pictures differ (compare), 130 and 143 interrupted.";
+    Exit codes: 0 done, 1 failure, 2 usage, 3 bad scene, 4 hits or pictures differ (compare),\n\
+    5 the time of --time was up before the error of --noise was reached, 130 and 143 interrupted.";
 
 #[derive(Debug, clap::Subcommand)]
 pub(super) enum Command {
@@ -77,8 +81,8 @@ pub(super) struct RenderArguments {
     /// Height of the picture in pixels
     #[arg(value_name = "HEIGHT", allow_negative_numbers = true, value_parser = whole(MAX_SIDE.into()))]
     height: Option<u64>,
-    /// Samples per pixel
-    #[arg(value_name = "SAMPLES", allow_negative_numbers = true, value_parser = whole(MAX_SAMPLES))]
+    /// Samples per pixel; with --noise or --time the most, 0 for no limit
+    #[arg(value_name = "SAMPLES", allow_negative_numbers = true, value_parser = whole_or_none(MAX_SAMPLES))]
     samples: Option<u64>,
     /// Longest path in ray segments; 1 shows only lights and the sky
     #[arg(value_name = "BOUNCES", allow_negative_numbers = true, value_parser = whole(MAX_BOUNCES.into()))]
@@ -120,6 +124,19 @@ pub(super) struct RenderArguments {
     /// Most that a component of a sample's radiance may be; takes light away and says how much [default: no limit]
     #[arg(long, value_name = "X", allow_negative_numbers = true, value_parser = positive)]
     clamp: Option<f64>,
+    /// Relative error at which blocks of 16 x 16 pixels stop, such as 0.02 [default: all take SAMPLES]
+    #[arg(long, value_name = "E", allow_negative_numbers = true, value_parser = positive)]
+    noise: Option<f64>,
+    /// The best picture within this time of sampling, such as 30, 500ms or 2m [default: no limit]
+    #[arg(long, value_name = "T", allow_negative_numbers = true, value_parser = time)]
+    time: Option<Duration>,
+    /// Also write the error of every pixel: an .exr with its mean, standard error and half 95 % interval in R, G and B
+    #[arg(long, value_name = "FILE")]
+    error_bars: Option<PathBuf>,
+    /// Whether the error of the picture is estimated from a few pixels where its samples alone can't tell it, for about 3 %
+    /// more time [default: on]
+    #[arg(long, value_name = "on|off", value_parser = choice(&SWITCH))]
+    error_estimate: Option<bool>,
     /// Brightness of a PNG in stops, -100 to 100
     #[arg(long, value_name = "STOPS", allow_negative_numbers = true, default_value = "0", value_parser = stops)]
     exposure: f64,
@@ -136,6 +153,8 @@ pub(super) struct RenderArguments {
 pub(super) struct Job {
     pub(super) scene: PathBuf,
     pub(super) image: PathBuf,
+    /// Where the errors of the pixels go.
+    pub(super) error_bars: Option<PathBuf>,
     pub(super) settings: Settings,
     /// In stops.
     pub(super) exposure: f64,
@@ -177,6 +196,10 @@ impl RenderArguments {
             };
             return Err(usage(&message).into());
         };
+        if samples == 0 && self.noise.is_none() && self.time.is_none() {
+            let message = "0 samples, which means no limit, can only be given with --noise or --time";
+            return Err(usage(message).into());
+        }
         let defaults =
             Settings::new(u32::try_from(width)?, u32::try_from(height)?, samples, u32::try_from(bounces)?);
         let settings = Settings {
@@ -190,9 +213,14 @@ impl RenderArguments {
             sampler: self.sampler.unwrap_or(defaults.sampler),
             light_sampling: self.light_sampling.unwrap_or(defaults.light_sampling),
             clamp: self.clamp,
+            error_estimate: self.error_estimate.unwrap_or(true),
+            scramble_length: self.error_bars.is_some().then_some(SHORT_SCRAMBLE_LENGTH),
+            noise: self.noise,
+            time: self.time,
             ..defaults
         };
-        Ok(Job { scene, image, settings, exposure: self.exposure, quiet: self.quiet, json: self.json })
+        let RenderArguments { exposure, quiet, json, error_bars, .. } = self;
+        Ok(Job { scene, image, error_bars, settings, exposure, quiet, json })
     }
 
     /// How many positional arguments there are.

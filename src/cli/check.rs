@@ -3,7 +3,7 @@
 use super::describe;
 use crate::error::{Diagnostic, Error, Result, Severity};
 use crate::geometry::MeshSpace;
-use crate::render::{CHUNK, film_bytes};
+use crate::render::{Settings, film_bytes};
 use crate::scene;
 use crate::world::World;
 use std::fmt::Write as _;
@@ -42,7 +42,7 @@ fn report(path: &Path) -> Result<String> {
         describe::counts(&scene.desc).into_iter().map(|(name, count)| format!("{count} {name}")).collect();
     let contents = if counts.is_empty() { "no objects".into() } else { counts.join(", ") };
     let triangles = describe::triangles(&scene.desc);
-    let picture = megabytes(film_bytes(width, height, samples, CHUNK));
+    let picture = megabytes(film_bytes(&Settings::new(width, height, samples, 1)));
     let memory = megabytes(world_bytes(&world) as u64);
     let lines = [
         format!("{}: {}", path.display(), verdict(&warnings)),

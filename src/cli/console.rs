@@ -11,7 +11,12 @@ pub(super) fn say(line: impl Display) {
 
 /// A number as `%g` prints it: 6 significant digits, no zeros at the end.
 pub(super) fn number(x: f64) -> String {
-    let rounded: f64 = format!("{x:.5e}").parse().unwrap_or(x);
+    digits(x, 6)
+}
+
+/// A number with so many significant digits, at least 1, and no zeros at the end.
+pub(super) fn digits(x: f64, count: usize) -> String {
+    let rounded: f64 = format!("{x:.*e}", count - 1).parse().unwrap_or(x);
     let is_plain = rounded == 0.0 || (1e-5..1e15).contains(&rounded.abs());
     if is_plain { format!("{rounded}") } else { format!("{rounded:e}") }
 }

@@ -2,7 +2,8 @@
 
 use super::arguments::{ACCELS, BVHS, ISAS, Job, PRECISIONS, name_of};
 use crate::error::{Diagnostic, Error, Severity};
-use crate::render::{Progress, Rendered};
+use crate::film::PictureError;
+use crate::render::{Ended, Progress, Rendered};
 use crate::world::Requires;
 use serde::Serialize;
 use std::io::{self, Write};
@@ -19,7 +20,18 @@ pub(super) enum Event<'e> {
         requires: &'e Requires,
     },
     /// Rendering goes on.
-    Progress { samples: u64, total: u64, rays: u64, seconds: f64, eta_seconds: f64, samples_per_second: f64 },
+    Progress {
+        samples: u64,
+        /// Null where there is no limit.
+        total: Option<u64>,
+        rays: u64,
+        seconds: f64,
+        eta_seconds: f64,
+        samples_per_second: f64,
+        /// The relative error so far and at the end; null where not known.
+        error: Option<f64>,
+        error_at_end: Option<f64>,
+    },
     /// The picture is written.
     Done(Summary<'e>),
     /// The picture is written, with fewer samples than asked for.
@@ -28,7 +40,7 @@ pub(super) enum Event<'e> {
     Error { code: u8, message: String, diagnostics: Vec<DiagnosticRecord> },
 }
 
-/// The settings of a render. `isa` is null for the machine's best, `clamp` for no limit.
+/// The settings of a render. `isa` is null for the machine's best, `clamp`, `noise` and `time_seconds` for no limit.
 #[derive(Debug, Serialize)]
 pub(super) struct JobRecord {
     version: &'static str,
@@ -47,8 +59,11 @@ pub(super) struct JobRecord {
     chunk: u32,
     seed: u64,
     sampler: &'static str,
+    scramble_length: u64,
     light_sampling: bool,
     clamp: Option<f64>,
+    noise: Option<f64>,
+    time_seconds: Option<f64>,
     exposure: f64,
 }
 
@@ -58,8 +73,13 @@ pub(super) struct Summary<'e> {
     #[serde(flatten)]
     job: JobRecord,
     requires: &'e Requires,
-    /// Samples per pixel in the picture.
+    /// Samples per pixel in the picture; with `noise` the most. A render with so many makes the same picture.
     samples_taken: u64,
+    /// Samples of all pixels; with `noise` also those that only decided where blocks stopped.
+    all_samples: u64,
+    /// Whether there is more noise than asked for.
+    noise_missed: bool,
+    error: Option<ErrorRecord>,
     #[serde(flatten)]
     counts: Counts,
     rays: u64,
@@ -67,6 +87,20 @@ pub(super) struct Summary<'e> {
     seconds: Seconds,
     samples_per_second: f64,
     rays_per_second: f64,
+}
+
+/// How far the picture is from the truth, with 95 % intervals; null where that is not known.
+#[derive(Debug, Serialize)]
+struct ErrorRecord {
+    /// The root of the expected relMSE.
+    relative: f64,
+    relative_interval: [f64; 2],
+    /// Over pixels and components, as radiance.
+    mean: f64,
+    mean_interval: [f64; 2],
+    mean_standard_error: f64,
+    /// Whether a few pixels carry most of the error.
+    doubtful: bool,
 }
 
 /// What was odd about the samples of a picture.
@@ -134,8 +168,11 @@ impl JobRecord {
             chunk: settings.chunk,
             seed: settings.seed,
             sampler: settings.sampler.name(),
+            scramble_length: settings.scrambles().length(),
             light_sampling: settings.light_sampling,
             clamp: settings.clamp,
+            noise: settings.noise,
+            time_seconds: settings.time.map(|time| time.as_secs_f64()),
             exposure: job.exposure,
         }
     }
@@ -153,11 +190,28 @@ impl<'e> Summary<'e> {
             job: JobRecord::new(job),
             requires,
             samples_taken: film.samples(),
+            all_samples: rendered.samples,
+            noise_missed: job.settings.noise.is_some() && rendered.ended != Ended::Complete,
+            error: rendered.error.as_ref().map(ErrorRecord::new),
             counts: Counts::new(rendered),
             rays: counters.rays,
             seconds,
             samples_per_second: per_second(rendered.samples(), seconds.render),
             rays_per_second: per_second(counters.rays as f64, seconds.render),
+        }
+    }
+}
+
+impl ErrorRecord {
+    fn new(error: &PictureError) -> ErrorRecord {
+        let PictureError { relative, mean, standard_error, is_doubtful } = *error;
+        ErrorRecord {
+            relative: relative.value,
+            relative_interval: [relative.low, relative.high],
+            mean: mean.value,
+            mean_interval: [mean.low, mean.high],
+            mean_standard_error: standard_error,
+            doubtful: is_doubtful,
         }
     }
 }
@@ -180,15 +234,18 @@ impl Counts {
 }
 
 impl Event<'_> {
-    pub(super) fn progress(progress: &Progress, elapsed: Duration) -> Event<'static> {
+    /// `limited`: whether the number of samples is.
+    pub(super) fn progress(progress: &Progress, elapsed: Duration, limited: bool) -> Event<'static> {
         let seconds = elapsed.as_secs_f64();
         Event::Progress {
             samples: progress.samples,
-            total: progress.total,
+            total: Some(progress.total).filter(|_| limited),
             rays: progress.rays,
             seconds,
             eta_seconds: eta(progress, elapsed).as_secs_f64(),
             samples_per_second: per_second(progress.samples as f64, seconds),
+            error: progress.outlook.error,
+            error_at_end: progress.outlook.error_at_end,
         }
     }
 
@@ -234,6 +291,9 @@ pub(super) fn emit(event: &impl Serialize) {
 
 /// The time that is left if it goes on as it did so far.
 pub(super) fn eta(progress: &Progress, elapsed: Duration) -> Duration {
+    if let Some(seconds) = progress.outlook.seconds_left {
+        return Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX);
+    }
     let left = progress.total.saturating_sub(progress.samples) as f64;
     let factor = left / progress.samples.max(1) as f64;
     Duration::try_from_secs_f64(elapsed.as_secs_f64() * factor).unwrap_or(Duration::MAX)

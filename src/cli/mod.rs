@@ -1,7 +1,7 @@
 //! The command line: what was typed, what it means, what is printed, exit codes.
 //!
 //! Results go to stdout, everything for humans to stderr. Exit codes: 0 done, 1 failure, 2 usage, 3 bad scene,
-//! 4 hits or pictures differ, 130 and 143 interrupted.
+//! 4 hits or pictures differ, 5 a noise target missed because the time was up, 130 and 143 interrupted.
 
 mod arguments;
 mod bench;

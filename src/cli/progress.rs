@@ -1,7 +1,7 @@
 //! How a render goes on: a bar on a terminal, else a line now and then; events with `--json`.
 
 use super::arguments::Job;
-use super::console::{duration, say, with_prefix};
+use super::console::{digits, duration, say, with_prefix};
 use super::event::{self, Event, eta, per_second};
 use super::interrupt;
 use crate::render::{Progress, Watch};
@@ -14,6 +14,8 @@ use std::time::{Duration, Instant};
 const REDRAW: Duration = Duration::from_millis(100);
 const EVERY_EVENT: Duration = Duration::from_secs(1);
 const EVERY_LINE: Duration = Duration::from_secs(10);
+/// Of the bar.
+const STEPS: u64 = 10_000;
 
 /// Follows a render for the command line.
 pub(super) struct Reporter {
@@ -21,6 +23,8 @@ pub(super) struct Reporter {
     bar: Option<(ProgressBar, Pace)>,
     lines: Option<Pace>,
     events: Option<Pace>,
+    /// Whether the number of samples is limited.
+    limited: bool,
 }
 
 impl Reporter {
@@ -31,7 +35,7 @@ impl Reporter {
         let bar = (!job.quiet && is_smart).then(|| (new_bar(), Pace::new(REDRAW, start)));
         let lines = (!job.quiet && !is_smart).then(|| Pace::new(EVERY_LINE, start));
         let events = job.json.then(|| Pace::new(EVERY_EVENT, start));
-        Reporter { start, bar, lines, events }
+        Reporter { start, bar, lines, events, limited: job.settings.samples > 0 }
     }
 
     /// Takes the bar away.
@@ -48,15 +52,15 @@ impl Watch for Reporter {
         if let Some((bar, pace)) = &self.bar
             && pace.is_due()
         {
-            bar.set_length(progress.total);
-            bar.set_position(progress.samples);
+            bar.set_length(STEPS);
+            bar.set_position((share(progress, elapsed) * STEPS as f64) as u64);
             bar.set_message(line(progress, elapsed));
         }
         if self.lines.as_ref().is_some_and(Pace::is_due) {
             say(line(progress, elapsed));
         }
         if self.events.as_ref().is_some_and(Pace::is_due) {
-            event::emit(&Event::progress(progress, elapsed));
+            event::emit(&Event::progress(progress, elapsed, self.limited));
         }
     }
 
@@ -73,12 +77,27 @@ fn new_bar() -> ProgressBar {
     bar
 }
 
+/// The share that is done: of the time where that is forecast, else of the samples.
+fn share(progress: &Progress, elapsed: Duration) -> f64 {
+    match progress.outlook.seconds_left {
+        Some(left) => elapsed.as_secs_f64() / (elapsed.as_secs_f64() + left).max(f64::MIN_POSITIVE),
+        None => progress.samples as f64 / progress.total.max(1) as f64,
+    }
+}
+
 /// The share that is done is rounded down: 100 % is the end.
 fn line(progress: &Progress, elapsed: Duration) -> String {
-    let percent = u128::from(progress.samples) * 100 / u128::from(progress.total.max(1));
+    let percent = (100.0 * share(progress, elapsed)) as u64;
     let rate = |count: u64| with_prefix(per_second(count as f64, elapsed.as_secs_f64()));
+    let outlook = &progress.outlook;
+    let error = match (outlook.error, outlook.error_at_end) {
+        (Some(now), Some(end)) => {
+            format!(", error {} %, {} % at the end", digits(100.0 * now, 2), digits(100.0 * end, 2))
+        }
+        _ => String::new(),
+    };
     format!(
-        "{percent:3} %, {} passed, ETA {}, {}samples/s, {}rays/s",
+        "{percent:3} %, {} passed, ETA {}, {}samples/s, {}rays/s{error}",
         duration(elapsed),
         duration(eta(progress, elapsed)),
         rate(progress.samples),

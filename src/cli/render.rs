@@ -1,23 +1,29 @@
 //! `pathtracer SCENE WIDTH HEIGHT SAMPLES BOUNCES IMAGE`.
 
 use super::arguments::Job;
-use super::console::{duration, say, with_prefix};
+use super::console::{digits, duration, say, with_prefix};
 use super::event::{self, Event, JobRecord, Seconds, Summary, per_second};
 use super::progress::Reporter;
 use super::{describe, findings, interrupt};
-use crate::error::Error;
+use crate::error::{Error, Result};
+use crate::film::PictureError;
 use crate::output;
-use crate::picture::Destination;
-use crate::render::{Rendered, in_pool, render};
+use crate::picture::{Destination, Format};
+use crate::render::{Ended, Rendered, in_pool, render};
 use crate::scene;
 use crate::world::World;
+use std::path::Path;
 use std::time::{Duration, Instant};
+
+/// The exit code of a picture that is noisier than asked for because the time was up.
+const NOISE_MISSED: u8 = 5;
 
 /// Renders; returns the exit code.
 pub(super) fn run(job: &Job) -> anyhow::Result<u8> {
     // Whatever can be known to fail fails before the work.
     job.settings.check()?;
     let destination = Destination::new(&job.image)?;
+    let error_bars = job.error_bars.as_deref().map(error_bars).transpose()?;
     interrupt::listen(destination.partial_path().to_path_buf())?;
 
     let (scene, load) = timed(|| in_pool(&job.settings, || scene::load(&job.scene)));
@@ -48,16 +54,36 @@ pub(super) fn run(job: &Job) -> anyhow::Result<u8> {
     }
     let (written, write) = timed(|| output::write(&rendered.film, job.exposure, &destination));
     written?;
+    if let Some(error_bars) = error_bars
+        && !output::write_error_bars(&rendered.film, &error_bars)?
+    {
+        say(
+            "warning: no error bars were written: they need 16 samples, none of which may be too large for f32",
+        );
+    }
 
     let build = compile + rendered.build_seconds;
     let seconds = Seconds { load, build, render: rendered.render_seconds, write };
     conclude(job, &rendered, seconds);
     if job.json {
         let summary = Summary::new(job, &world.requires, &rendered, seconds);
-        event::emit(&if rendered.cancelled { Event::Interrupted(summary) } else { Event::Done(summary) });
+        let cancelled = rendered.ended == Ended::Cancelled;
+        event::emit(&if cancelled { Event::Interrupted(summary) } else { Event::Done(summary) });
     }
-    let code = if rendered.cancelled { interrupt::exit_code() } else { None };
-    Ok(code.unwrap_or(0))
+    Ok(match rendered.ended {
+        Ended::Cancelled => interrupt::exit_code().unwrap_or(0),
+        Ended::OutOfTime if job.settings.noise.is_some() => NOISE_MISSED,
+        _ => 0,
+    })
+}
+
+/// Where the errors of the pixels go.
+fn error_bars(path: &Path) -> Result<Destination> {
+    let destination = Destination::new(path)?;
+    match destination.format() {
+        Format::Exr => Ok(destination),
+        Format::Png => Err(Error::Usage(format!("error bars need an .exr, not {}", path.display()))),
+    }
 }
 
 /// Says how it ended.
@@ -66,19 +92,72 @@ fn conclude(job: &Job, rendered: &Rendered, seconds: Seconds) {
     if job.quiet {
         return;
     }
-    let film = &rendered.film;
-    if rendered.cancelled {
-        say(format_args!("interrupted after {} of {} samples", film.samples(), job.settings.samples));
+    if let Some(note) = ending(job, rendered) {
+        say(note);
     }
     let total = seconds.load + seconds.build + seconds.render + seconds.write;
     say(format_args!(
-        "{} written in {} ({} of sampling, {}samples/s, {}rays/s)",
+        "{} written in {} ({} of sampling, {}samples/s, {}rays/s){}{}",
         job.image.display(),
         duration(Duration::from_secs_f64(total)),
         duration(Duration::from_secs_f64(seconds.render)),
         with_prefix(per_second(rendered.samples(), seconds.render)),
         with_prefix(per_second(rendered.counters.rays as f64, seconds.render)),
+        samples(job, rendered),
+        rendered.error.as_ref().map_or(String::new(), error),
     ));
+}
+
+/// Why it ended before all that was asked for was done.
+fn ending(job: &Job, rendered: &Rendered) -> Option<String> {
+    let (samples, asked) = (rendered.film.samples(), job.settings.samples);
+    match (rendered.ended, job.settings.noise) {
+        (Ended::Cancelled, _) if asked == 0 => Some(format!("interrupted after {samples} samples")),
+        (Ended::Cancelled, _) => Some(format!("interrupted after {samples} of {asked} samples")),
+        (Ended::OutOfTime, None) => {
+            Some(format!("the time is up; SAMPLES = {samples} without --time makes the same picture"))
+        }
+        (Ended::OutOfTime, Some(noise)) => Some(format!(
+            "warning: the time was up before the error was {noise} everywhere; SAMPLES = {samples} without --time makes the \
+             same picture"
+        )),
+        (Ended::OutOfSamples, _) => {
+            Some(format!("note: {samples} samples did not bring the error below the target everywhere"))
+        }
+        (Ended::Complete, _) => None,
+    }
+}
+
+/// How many samples there were, where that was not known before.
+fn samples(job: &Job, rendered: &Rendered) -> String {
+    let film = &rendered.film;
+    match (job.settings.noise, job.settings.time) {
+        (None, None) => String::new(),
+        (None, Some(_)) => format!("; {} samples a pixel", film.samples()),
+        (Some(_), _) => {
+            let pixels = f64::from(film.width()) * f64::from(film.height());
+            format!(
+                "; {} samples a pixel, at most {}",
+                digits(rendered.samples() / pixels, 4),
+                film.samples()
+            )
+        }
+    }
+}
+
+/// How far the picture is from the truth.
+fn error(error: &PictureError) -> String {
+    let PictureError { relative, mean, is_doubtful, .. } = error;
+    let percent = |share: f64| digits(100.0 * share, 2);
+    format!(
+        "; estimated relative error {} % ({} to {} %), mean {} +- {}{}",
+        percent(relative.value),
+        percent(relative.low),
+        percent(relative.high),
+        digits(mean.value, 5),
+        digits(mean.high - mean.value, 2),
+        if *is_doubtful { ", doubtful: a few pixels carry most of it" } else { "" }
+    )
 }
 
 /// A result and the seconds that it took.

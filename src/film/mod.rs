@@ -5,8 +5,23 @@
 //! form a node, the sum of its two halves. A film keeps the largest nodes that are complete, as a binary counter keeps
 //! its digits; so the order in which chunks arrive, and any split of a render at chunk borders, make the same bits.
 
+mod error_bar;
+mod picture_error;
+mod stops;
+mod student;
+mod sums;
+
+pub use error_bar::ErrorBar;
+pub(crate) use picture_error::relative_weight;
+pub use picture_error::{Estimate, PictureError, PictureErrorSum, Pixels};
+pub use stops::{BLOCK, HALVES, Stops, samples_of_halves};
+pub use student::quantile;
+pub(crate) use sums::grey;
+pub use sums::{Greys, Sums};
+
 use crate::error::{Error, Result};
 use crate::math::Rgb;
+use crate::sampling::SCRAMBLES;
 
 /// The sum of an aligned run of chunks.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,13 +30,11 @@ struct Node {
     first: u64,
     /// Number of chunks, a power of two.
     chunks: u64,
-    /// Samples per pixel in it; fewer than the chunks have room for where sampling ended inside a chunk.
-    samples: u64,
-    /// One sum a pixel, row by row from the top left.
-    sums: Vec<Rgb>,
+    /// Fewer samples than the chunks have room for where sampling ended inside a chunk.
+    sums: Sums,
 }
 
-/// The sums of a picture's samples, one a pixel; every pixel has the same number of samples.
+/// The sums of a picture's samples, one a pixel; every pixel has the same number of samples, unless blocks have stopped.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Film {
     width: u32,
@@ -29,12 +42,14 @@ pub struct Film {
     chunk: u64,
     /// Ascending by `first`, without overlap.
     nodes: Vec<Node>,
+    /// Where blocks have stopped.
+    stops: Option<Stops>,
 }
 
 impl Film {
     /// A film without samples, of `width` x `height` pixels and `chunk` > 0 samples a chunk.
     pub fn new(width: u32, height: u32, chunk: u64) -> Film {
-        Film { width, height, chunk, nodes: Vec::new() }
+        Film { width, height, chunk, nodes: Vec::new(), stops: None }
     }
 
     /// Pixels in a row.
@@ -47,18 +62,28 @@ impl Film {
         self.height
     }
 
-    /// Samples that every pixel has.
+    /// Samples that every pixel has, or the most that one has where blocks have stopped.
     pub fn samples(&self) -> u64 {
-        self.nodes.iter().map(|node| node.samples).sum()
+        self.nodes.iter().map(|node| node.sums.samples).sum()
     }
 
-    /// Adds the sums of one chunk: `samples` (at most the size of a chunk) a pixel, row by row from the top left.
-    /// Chunks may come in any order. An error if the film has this chunk already or the sizes differ.
-    pub fn add(&mut self, chunk: u64, samples: u64, sums: Vec<Rgb>) -> Result<()> {
-        if sums.len() as u64 != u64::from(self.width) * u64::from(self.height) || samples > self.chunk {
+    /// Samples that every pixel has in each scramble, where no block has stopped; none where that is not known.
+    pub fn counts(&self) -> [u64; SCRAMBLES] {
+        if self.nodes.iter().any(|node| node.sums.greys == Greys::Unknown) {
+            return [0; SCRAMBLES];
+        }
+        std::array::from_fn(|scramble| self.nodes.iter().map(|node| node.sums.counts[scramble]).sum())
+    }
+
+    /// Adds the sums of one chunk, of at most the chunk's samples. Chunks may come in any order. An error if the film has
+    /// this chunk already or the sizes differ.
+    pub fn add(&mut self, chunk: u64, sums: Sums) -> Result<()> {
+        if sums.radiance.len() as u64 != u64::from(self.width) * u64::from(self.height)
+            || sums.samples > self.chunk
+        {
             return Err(Error::Usage("a chunk of another size can't be added to this film".into()));
         }
-        self.insert(Node { first: chunk, chunks: 1, samples, sums })
+        self.insert(Node { first: chunk, chunks: 1, sums })
     }
 
     /// Adds the chunks of another part of the same render. An error if the sizes differ or a chunk is in both.
@@ -73,10 +98,21 @@ impl Film {
     pub fn means(&self) -> impl Iterator<Item = Rgb> + '_ {
         let pixels = if self.nodes.is_empty() { 0 } else { self.width as usize * self.height as usize };
         let weight = 1.0 / self.samples().max(1) as f64;
-        (0..pixels).map(move |pixel| {
-            let sums = self.nodes.iter().rev().map(|node| node.sums[pixel]);
-            sums.reduce(|sum, node| sum + node).unwrap_or(Rgb::ZERO) * weight
-        })
+        (0..pixels).map(move |pixel| self.mean(pixel, weight))
+    }
+
+    /// The mean of a pixel, given one over the number of samples.
+    fn mean(&self, pixel: usize, weight: f64) -> Rgb {
+        match self.stopped_counts(pixel) {
+            Some(counts) => self.mean_of_halves(pixel, &counts),
+            None => self.sum(pixel) * weight,
+        }
+    }
+
+    /// The sum of a pixel's samples, counted row by row from the top left.
+    pub fn sum(&self, pixel: usize) -> Rgb {
+        let sums = self.nodes.iter().rev().map(|node| node.sums.radiance[pixel]);
+        sums.reduce(|sum, node| sum + node).unwrap_or(Rgb::ZERO)
     }
 
     /// How many sums a pixel are held at once, at most, while `chunks` chunks arrive in order.
@@ -105,10 +141,8 @@ impl Film {
             let left = if is_left { Some(at) } else { at.checked_sub(1) };
             let Some(left) = left.filter(|&left| self.are_halves(left)) else { return };
             let right = self.nodes.remove(left + 1);
-            let node = &mut self.nodes[left];
-            node.sums.iter_mut().zip(&right.sums).for_each(|(sum, &other)| *sum += other);
-            node.chunks *= 2;
-            node.samples += right.samples;
+            let Node { first, chunks, sums } = self.nodes.remove(left);
+            self.nodes.insert(left, Node { first, chunks: 2 * chunks, sums: sums.join(right.sums) });
             at = left;
         }
     }
@@ -116,7 +150,7 @@ impl Film {
     /// Whether the nodes at `left` and after it are the complete halves of a node.
     fn are_halves(&self, left: usize) -> bool {
         let (Some(a), Some(b)) = (self.nodes.get(left), self.nodes.get(left + 1)) else { return false };
-        let is_complete = |node: &Node| node.samples == node.chunks * self.chunk;
+        let is_complete = |node: &Node| node.sums.samples == node.chunks * self.chunk;
         let fit =
             a.chunks == b.chunks && (a.first / a.chunks).is_multiple_of(2) && a.first + a.chunks == b.first;
         fit && is_complete(a) && is_complete(b)

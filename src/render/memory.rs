@@ -1,41 +1,53 @@
 //! What a film takes, and whether the machine has it.
 
 use super::Settings;
+use super::cells::Layout;
 use crate::error::{Error, Result};
 use crate::film::Film;
 use crate::math::Rgb;
+use crate::sampling::SCRAMBLES;
 use std::fs;
 
-/// The most bytes that the film and its picture take at once.
-pub fn film_bytes(width: u32, height: u32, samples: u64, chunk: u32) -> u64 {
-    let pixels = u64::from(width) * u64::from(height);
-    let planes = Film::most_nodes(samples.div_ceil(u64::from(chunk.max(1))));
-    // Two planes more: the chunk under way and its last complete pass; afterwards the encoded picture (24 bytes a pixel
-    // for EXR).
-    pixels.saturating_mul((planes + 2) * size_of::<Rgb>() as u64)
+/// The most bytes that the film and its picture take at once. Without a limit of samples, 65,536 are reckoned with.
+pub fn film_bytes(settings: &Settings) -> u64 {
+    let pixels = u64::from(settings.width) * u64::from(settings.height);
+    let chunk = u64::from(settings.chunk.max(1));
+    let samples = if settings.samples == 0 { 1 << 16 } else { settings.samples };
+    let radiance = size_of::<Rgb>() as u64;
+    let bytes = |samples: u64| match Layout::new(settings, 0..samples.max(1)) {
+        Layout::Plain(_) => radiance + size_of::<f32>() as u64,
+        Layout::Scrambled => radiance + (size_of::<f32>() * SCRAMBLES) as u64,
+        Layout::Halved => 2 * radiance + (size_of::<f32>() * SCRAMBLES) as u64,
+    };
+    let nodes = Film::most_nodes(samples.div_ceil(chunk));
+    let film: u64 = (0..nodes).map(|node| bytes(chunk.saturating_mul(1 << node).min(samples))).sum();
+    // Beside it the chunk under way and its last complete pass, and what blocks know of themselves; afterwards the encoded picture (24 bytes a pixel for EXR).
+    let under_way = Layout::new(settings, 0..chunk).stride() * size_of::<f64>();
+    let planes = if settings.noise.is_some() { 3 } else { 2 };
+    pixels.saturating_mul(film + (planes * under_way) as u64)
 }
 
 /// Whether the film fits into the memory that is free now; passes where the system does not say.
 pub(super) fn check(settings: &Settings) -> Result<()> {
-    let needed = film_bytes(settings.width, settings.height, settings.samples, settings.chunk);
+    let needed = film_bytes(settings);
     match available_bytes() {
         Some(available) if needed > available => Err(too_large(settings, Some(available))),
         _ => Ok(()),
     }
 }
 
-/// One zero a pixel.
-pub(super) fn plane(settings: &Settings) -> Result<Vec<Rgb>> {
-    let pixels = settings.width as usize * settings.height as usize;
-    let mut plane = Vec::new();
-    plane.try_reserve_exact(pixels).map_err(|_| too_large(settings, None))?;
-    plane.resize(pixels, Rgb::ZERO);
-    Ok(plane)
+/// So many zeros a pixel.
+pub(super) fn zeros(settings: &Settings, each: usize) -> Result<Vec<f64>> {
+    let count = settings.width as usize * settings.height as usize * each;
+    let mut zeros = Vec::new();
+    zeros.try_reserve_exact(count).map_err(|_| too_large(settings, None))?;
+    zeros.resize(count, 0.0);
+    Ok(zeros)
 }
 
 fn too_large(settings: &Settings, available: Option<u64>) -> Error {
-    let Settings { width, height, samples, chunk, .. } = *settings;
-    let needed = gigabytes(film_bytes(width, height, samples, chunk));
+    let Settings { width, height, samples, .. } = *settings;
+    let needed = gigabytes(film_bytes(settings));
     let available = available.map_or("less".into(), gigabytes);
     Error::Usage(format!(
         "a picture of {width} x {height} pixels with {samples} samples needs {needed} GB of memory, and {available} GB \

@@ -4,9 +4,9 @@ use super::Rendered;
 use crate::math::Rgb;
 
 impl Rendered {
-    /// Samples in the film, of all pixels.
+    /// Samples taken, of all pixels.
     pub fn samples(&self) -> f64 {
-        self.film.samples() as f64 * f64::from(self.film.width()) * f64::from(self.film.height())
+        self.samples as f64
     }
 
     /// The share, 0 to 1, of the samples' starting throughput that arrived at a surface with the last segment of a path

@@ -1,74 +1,124 @@
 //! A plane of sums cut into tiles that own their pixels.
 
+use super::adaptive::Adaptive;
+use super::cells::{Cells, Layout};
 use super::{FIREFLY, FIREFLY_BEFORE};
+use crate::film::grey;
 use crate::integrator::Counters;
 use crate::math::Rgb;
-use std::ops::Range;
+use crate::sampling::{Place, Scrambles};
+use std::ops::{AddAssign, Range};
 
 /// Samples that every pixel gets.
-pub(super) struct Pass {
+pub(super) struct Pass<'a> {
     /// Their indices.
     pub(super) samples: Range<u64>,
     /// How many of the same chunk every pixel has already.
     pub(super) before: u64,
     /// The most that a component of a sample may be.
     pub(super) clamp: Option<f64>,
+    /// Where they lie.
+    pub(super) scrambles: Scrambles,
+    /// Which blocks get them, if not all.
+    pub(super) blocks: Option<&'a Adaptive>,
 }
 
-/// A rectangle of a plane.
+/// What a tile did.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Work {
+    /// Samples of one pixel.
+    pub(super) samples: u64,
+    pub(super) counters: Counters,
+}
+
+/// A rectangle of a plane of cells.
 pub(super) struct Tile<'p> {
     x: u32,
     y: u32,
-    rows: Vec<&'p mut [Rgb]>,
+    layout: Layout,
+    rows: Vec<&'p mut [f64]>,
 }
 
 /// Cuts a plane with rows of `width` pixels into tiles of `side` x `side` pixels, fewer at the right and lower edges.
-pub(super) fn split(plane: &mut [Rgb], width: u32, side: u32) -> Vec<Tile<'_>> {
-    let band_pixels = width as usize * side as usize;
-    let bands = plane.chunks_mut(band_pixels).zip((0..).step_by(side as usize));
-    bands.flat_map(|(band, y)| split_band(band, width, side, y)).collect()
+pub(super) fn split(cells: &mut Cells, width: u32, side: u32) -> Vec<Tile<'_>> {
+    let Cells { values, layout, .. } = cells;
+    let layout = *layout;
+    let band_values = width as usize * side as usize * layout.stride();
+    let bands = values.chunks_mut(band_values).zip((0..).step_by(side as usize));
+    bands.flat_map(|(band, y)| split_band(band, layout, width, side, y)).collect()
 }
 
-fn split_band(band: &mut [Rgb], width: u32, side: u32, y: u32) -> Vec<Tile<'_>> {
+fn split_band(band: &mut [f64], layout: Layout, width: u32, side: u32, y: u32) -> Vec<Tile<'_>> {
     let mut tiles: Vec<Tile<'_>> =
-        (0..width).step_by(side as usize).map(|x| Tile { x, y, rows: Vec::new() }).collect();
-    for row in band.chunks_mut(width as usize) {
-        let parts = row.chunks_mut(side as usize);
+        (0..width).step_by(side as usize).map(|x| Tile { x, y, layout, rows: Vec::new() }).collect();
+    for row in band.chunks_mut(width as usize * layout.stride()) {
+        let parts = row.chunks_mut(side as usize * layout.stride());
         tiles.iter_mut().zip(parts).for_each(|(tile, part)| tile.rows.push(part));
     }
     tiles
 }
 
 impl Tile<'_> {
-    /// The number of pixels.
-    pub(super) fn pixels(&self) -> u64 {
-        self.rows.iter().map(|row| row.len() as u64).sum()
-    }
-
     /// Adds the samples of a pass to every pixel, in the order of their indices; `None` if `cancelled`, which is asked
     /// before every pixel: in a bright closed scene one may take a second.
-    pub(super) fn sum<F>(&mut self, pass: &Pass, sample: &F, cancelled: impl Fn() -> bool) -> Option<Counters>
+    pub(super) fn sum<F>(&mut self, pass: &Pass, sample: &F, cancelled: impl Fn() -> bool) -> Option<Work>
     where
         F: Fn(u32, u32, u64, &mut Counters) -> Rgb,
     {
-        let mut counters = Counters::default();
+        let mut work = Work::default();
+        let layout = self.layout;
         for (row, y) in self.rows.iter_mut().zip(self.y..) {
-            for (pixel, x) in row.iter_mut().zip(self.x..) {
+            for (cell, x) in row.chunks_exact_mut(layout.stride()).zip(self.x..) {
+                if pass.blocks.is_some_and(|blocks| !blocks.takes(x, y)) {
+                    continue;
+                }
                 if cancelled() {
                     return None;
                 }
-                let firefly = pass.firefly(*pixel);
+                let mut sums = layout.radiance(cell);
+                let firefly = pass.firefly(sums[0] + sums[1]);
                 for index in pass.samples.clone() {
-                    let radiance = sample(x, y, index, &mut counters);
-                    *pixel += pass.judge(radiance, firefly, &mut counters);
+                    let place = pass.scrambles.place(index);
+                    let radiance = pass.take(x, y, place, sample, firefly, &mut work.counters);
+                    sums[layout.half(place.scramble)] += radiance;
+                    if let Some(sum) = cell[layout.greys()].get_mut(place.scramble) {
+                        *sum += grey(radiance);
+                    }
                 }
+                layout.set_radiance(cell, sums);
+                work.samples += pass.samples.end - pass.samples.start;
             }
         }
-        Some(counters)
+        Some(work)
     }
 }
 
-impl Pass {
+impl AddAssign for Work {
+    fn add_assign(&mut self, other: Work) {
+        self.samples += other.samples;
+        self.counters += other.counters;
+    }
+}
+
+impl Pass<'_> {
+    /// What the sample at a place adds to its pixel.
+    #[inline]
+    pub(super) fn take<F>(
+        &self,
+        x: u32,
+        y: u32,
+        place: Place,
+        sample: &F,
+        firefly: f64,
+        counters: &mut Counters,
+    ) -> Rgb
+    where
+        F: Fn(u32, u32, u64, &mut Counters) -> Rgb,
+    {
+        let radiance = sample(x, y, place.sample_index(), counters);
+        self.judge(radiance, firefly, counters)
+    }
+
     /// Above which component a sample of a pixel is a firefly, given the sum of the pixel's samples in the chunk.
     fn firefly(&self, sum: Rgb) -> f64 {
         let largest = sum.max_element();

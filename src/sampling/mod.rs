@@ -1,10 +1,12 @@
 //! Random numbers as pure functions of (seed, pixel, sample, dimension), and the maps from them to shapes.
 
 mod independent;
+mod scrambles;
 mod sobol;
 pub mod warp;
 
 pub use independent::{Independent, IndependentSet};
+pub use scrambles::{Place, SCRAMBLES, Scrambles};
 pub use sobol::{Sobol, SobolSet};
 
 use crate::error::Error;

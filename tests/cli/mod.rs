@@ -1,4 +1,5 @@
 mod bench;
+mod budget;
 mod check;
 mod compare;
 mod findings;

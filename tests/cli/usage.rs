@@ -52,7 +52,7 @@ fn numbers_out_of_range_are_refused_with_the_range() {
     for size in ["0 6", "8 0", "-5 6", "8 1000000000", "1e3 6", "8.5 6", "99999999999999999999 6"] {
         folder.run(&format!("ball.yaml {size} 1 3 a.png")).fails(2, sides);
     }
-    folder.run("ball.yaml 8 6 0 3 a.png").fails(2, "'[SAMPLES]': expected a whole number from 1 to");
+    folder.run("ball.yaml 8 6 0 3 a.png").fails(2, "0 samples, which means no limit, can only be given with");
     folder.run("ball.yaml 8 6 1 -3 a.png").fails(2, "'[BOUNCES]': expected a whole number from 1 to");
     folder.run("ball.yaml 8 6 1 3 a.png --threads 0").fails(2, "expected a whole number from 1 to 1024");
     folder.run("ball.yaml 8 6 1 3 a.png --tile -1").fails(2, sides);

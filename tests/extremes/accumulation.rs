@@ -3,7 +3,7 @@
 use super::Alone;
 use crate::support::double_double::DoubleDouble;
 use crate::support::random::Random;
-use pathtracer::film::Film;
+use pathtracer::film::{Film, Sums};
 use pathtracer::math::Rgb;
 use pathtracer::render::{Settings, accumulate};
 
@@ -18,7 +18,7 @@ fn assert_mean_of(what: &str, chunks: u64, chunk: u64, mut sample: impl FnMut() 
             sum += value;
             exact = exact + DoubleDouble::from(value);
         }
-        film.add(index, chunk, vec![Rgb::splat(sum)]).expect("a new chunk");
+        film.add(index, Sums::plain(chunk, vec![Rgb::splat(sum)])).expect("a new chunk");
     }
     let count = chunks * chunk;
     let expected = (exact / DoubleDouble::from(count as f64)).to_f64();

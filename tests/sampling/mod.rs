@@ -1,6 +1,7 @@
 //! Random numbers and warps.
 
 mod independent;
+mod scrambles;
 mod sobol;
 mod warp;
 

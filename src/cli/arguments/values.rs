@@ -1,9 +1,10 @@
 //! Values of options: names in tables, numbers in ranges.
 
 use crate::accel::{BvhQuality, Isa, Precision};
-use crate::render::AccelKind;
+use crate::render::{AccelKind, MIN_TIME};
 use crate::sampling::SamplerKind;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
+use std::time::Duration;
 
 /// The names of the accelerators.
 pub(in crate::cli) const ACCELS: [(&str, AccelKind); 2] =
@@ -32,6 +33,21 @@ pub(super) fn whole(most: u64) -> impl Fn(&str) -> Result<u64, String> + Clone {
         let number = text.parse().ok().filter(|number| (1..=most).contains(number));
         number.ok_or_else(|| format!("expected a whole number from 1 to {most}"))
     }
+}
+
+/// Parses a whole number from 0 to `most`.
+pub(super) fn whole_or_none(most: u64) -> impl Fn(&str) -> Result<u64, String> + Clone {
+    move |text| if text == "0" { Ok(0) } else { whole(most)(text) }
+}
+
+/// Parses a time such as `90`, `1.5s`, `500ms`, `2m` or `1h`; seconds without a unit.
+pub(super) fn time(text: &str) -> Result<Duration, String> {
+    const UNITS: [(&str, f64); 4] = [("ms", 1e-3), ("s", 1.0), ("m", 60.0), ("h", 3600.0)];
+    let unit = UNITS.iter().find_map(|(unit, seconds)| Some((text.strip_suffix(unit)?, *seconds)));
+    let (number, seconds) = unit.unwrap_or((text, 1.0));
+    let time = number.parse().ok().and_then(|number: f64| Duration::try_from_secs_f64(number * seconds).ok());
+    time.filter(|&time| time >= MIN_TIME)
+        .ok_or_else(|| format!("expected a time of at least {MIN_TIME:?}, such as 30, 1.5s, 500ms, 2m or 1h"))
 }
 
 /// Parses a whole number from 1 to `most`, maybe in thousands (`50k`) or millions (`1M`).

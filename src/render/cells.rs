@@ -1,0 +1,142 @@
+//! The sums of the chunk under way.
+
+use super::{Settings, memory};
+use crate::error::Result;
+use crate::film::{Greys, HALVES, Sums};
+use crate::math::Rgb;
+use crate::sampling::{SCRAMBLES, Scrambles};
+use std::ops::Range;
+
+/// One cell a pixel, row by row from the top left.
+pub(super) struct Cells {
+    /// Samples per pixel so far.
+    pub(super) samples: u64,
+    pub(super) values: Vec<f64>,
+    pub(super) layout: Layout,
+    first: u64,
+    scrambles: Scrambles,
+}
+
+/// What a cell holds.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Layout {
+    /// The sum of the radiance of samples that all lie in this scramble.
+    Plain(usize),
+    /// Also, by scramble, the sums of the means of the components.
+    Scrambled,
+    /// The radiance of the even scrambles, that of the odd ones, and the sums by scramble.
+    Halved,
+}
+
+/// Numbers in a sum of radiance.
+const RADIANCE: usize = 3;
+
+impl Layout {
+    /// What a chunk of these samples needs.
+    pub(super) fn new(settings: &Settings, samples: Range<u64>) -> Layout {
+        match settings.scrambles().only(samples) {
+            _ if settings.noise.is_some() => Layout::Halved,
+            Some(scramble) => Layout::Plain(scramble),
+            None => Layout::Scrambled,
+        }
+    }
+
+    /// Numbers in a cell.
+    pub(super) fn stride(self) -> usize {
+        self.greys().end
+    }
+
+    /// Where in a cell the sums by scramble are.
+    pub(super) fn greys(self) -> Range<usize> {
+        match self {
+            Layout::Plain(_) => RADIANCE..RADIANCE,
+            Layout::Scrambled => RADIANCE..RADIANCE + SCRAMBLES,
+            Layout::Halved => HALVES * RADIANCE..HALVES * RADIANCE + SCRAMBLES,
+        }
+    }
+
+    /// The sums of the radiance in a cell, by half where it has halves.
+    #[inline]
+    pub(super) fn radiance(self, cell: &[f64]) -> [Rgb; HALVES] {
+        let at = |i: usize| Rgb::new(cell[i], cell[i + 1], cell[i + 2]);
+        [at(0), if self == Layout::Halved { at(RADIANCE) } else { Rgb::ZERO }]
+    }
+
+    /// Writes them back.
+    #[inline]
+    pub(super) fn set_radiance(self, cell: &mut [f64], sums: [Rgb; HALVES]) {
+        cell[..RADIANCE].copy_from_slice(&sums[0].to_array());
+        if self == Layout::Halved {
+            cell[RADIANCE..2 * RADIANCE].copy_from_slice(&sums[1].to_array());
+        }
+    }
+
+    /// The half of the sums that a scramble belongs to.
+    #[inline]
+    pub(super) fn half(self, scramble: usize) -> usize {
+        if self == Layout::Halved { scramble % HALVES } else { 0 }
+    }
+
+    /// Takes a half out of a cell that has halves.
+    pub(super) fn clear_half(cell: &mut [f64], half: usize) {
+        cell[half * RADIANCE..(half + 1) * RADIANCE].fill(0.0);
+        let greys = &mut cell[Layout::Halved.greys()];
+        greys.iter_mut().skip(half).step_by(HALVES).for_each(|grey| *grey = 0.0);
+    }
+}
+
+impl Cells {
+    /// Empty cells for these samples.
+    pub(super) fn new(settings: &Settings, samples: Range<u64>) -> Result<Cells> {
+        let (first, scrambles) = (samples.start, settings.scrambles());
+        let layout = Layout::new(settings, samples);
+        Ok(Cells { samples: 0, values: memory::zeros(settings, layout.stride())?, layout, first, scrambles })
+    }
+
+    /// A copy, if there is memory for it.
+    pub(super) fn try_clone(&self, settings: &Settings) -> Result<Cells> {
+        let mut values = memory::zeros(settings, self.layout.stride())?;
+        values.copy_from_slice(&self.values);
+        Ok(Cells { values, ..*self })
+    }
+
+    /// Copies what other cells of the same chunk hold.
+    pub(super) fn copy_from(&mut self, other: &Cells) {
+        self.samples = other.samples;
+        self.values.copy_from_slice(&other.values);
+    }
+
+    /// That of a pixel.
+    pub(super) fn cell(&self, pixel: usize) -> &[f64] {
+        let stride = self.layout.stride();
+        &self.values[pixel * stride..][..stride]
+    }
+
+    /// That of a pixel.
+    pub(super) fn cell_mut(&mut self, pixel: usize) -> &mut [f64] {
+        let stride = self.layout.stride();
+        &mut self.values[pixel * stride..][..stride]
+    }
+
+    /// The sum of a pixel's radiance.
+    pub(super) fn sum(&self, pixel: usize) -> Rgb {
+        let [a, b] = self.layout.radiance(self.cell(pixel));
+        a + b
+    }
+
+    /// What the film keeps.
+    pub(super) fn into_sums(self) -> Sums {
+        let Cells { samples, layout, first, scrambles, .. } = self;
+        let cells = || self.values.chunks_exact(layout.stride());
+        let half = |half: usize| cells().map(|cell| layout.radiance(cell)[half]).collect();
+        if let Layout::Plain(scramble) = layout {
+            return Sums::of_scramble(scramble, samples, half(0));
+        }
+        let odd = if layout == Layout::Halved { half(1) } else { Vec::new() };
+        let start = layout.greys().start;
+        let greys = cells().map(|cell| std::array::from_fn(|i| cell[start + i] as f32)).collect();
+        let (before, after) = (scrambles.counts(first), scrambles.counts(first + samples));
+        let counts = std::array::from_fn(|i| after[i] - before[i]);
+        Sums { samples, radiance: half(0), odd, greys: Greys::All(greys), counts }
+    }
+}

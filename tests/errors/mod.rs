@@ -1,0 +1,8 @@
+//! The error bars of pixels and pictures.
+
+mod bars;
+mod coverage;
+mod noise;
+mod picture;
+mod scenes;
+mod time;
