@@ -14,7 +14,8 @@ mod fault;
 pub use fault::Fault;
 
 use crate::error::Result;
-use crate::geometry::{Geometry, Hit, LocalRay, PrimitiveId, Ray, Shape, TriangleHit};
+use crate::geometry::{Geometry, Hit, LocalRay, Nearest, PrimitiveId, Ray, Shape, TriangleHit};
+use bvh::Instructions;
 
 /// How hits of mesh triangles are found. Solids are exact at every precision.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -97,6 +98,16 @@ pub trait Kernel: Sync {
     /// Whether any triangle of a space but the excluded ones is hit with t in (0, `ray.t_max`).
     fn any_triangle(&self, space: u32, ray: &LocalRay) -> bool;
 
+    /// The closest hit among `geometry().linear_solids`.
+    fn closest_linear_solid(&self, ray: &Ray) -> Option<Hit> {
+        closest_one_by_one(self, &self.geometry().linear_solids, ray, None)
+    }
+
+    /// Whether any of `linear_solids` but `target` is hit at t in (0, t_max).
+    fn any_linear_solid(&self, ray: &Ray, t_max: f64, target: PrimitiveId) -> bool {
+        any_one_by_one(self, &self.geometry().linear_solids, ray, t_max, target)
+    }
+
     /// The closest hit among `geometry().tree_solids` that comes before `best` (or, without one, at any t), else `best`.
     /// `local` is the ray in `geometry().solid_frame`, for the nodes ([`Geometry::solid_node_bounds`]);
     /// [`closest_in_solid`] decides with `ray`. Called only if there are such solids.
@@ -108,7 +119,12 @@ pub trait Kernel: Sync {
 
 /// The hit of a solid if it comes before `best`, else `best`. What is in an instance is asked of the kernel.
 #[inline]
-pub fn closest_in_solid<K: Kernel>(kernel: &K, solid: u32, ray: &Ray, best: Option<Hit>) -> Option<Hit> {
+pub fn closest_in_solid<K: Kernel + ?Sized>(
+    kernel: &K,
+    solid: u32,
+    ray: &Ray,
+    best: Option<Hit>,
+) -> Option<Hit> {
     let geometry = kernel.geometry();
     let Shape::Instance(instance) = &geometry.solids[solid as usize].shape else {
         return nearer(best, geometry.intersect_solid(solid, ray, distance(&best)));
@@ -122,7 +138,13 @@ pub fn closest_in_solid<K: Kernel>(kernel: &K, solid: u32, ray: &Ray, best: Opti
 
 /// Whether a solid other than `target` is hit with t in (0, t_max). What is in an instance is asked of the kernel.
 #[inline]
-pub fn any_in_solid<K: Kernel>(kernel: &K, solid: u32, ray: &Ray, t_max: f64, target: PrimitiveId) -> bool {
+pub fn any_in_solid<K: Kernel + ?Sized>(
+    kernel: &K,
+    solid: u32,
+    ray: &Ray,
+    t_max: f64,
+    target: PrimitiveId,
+) -> bool {
     let geometry = kernel.geometry();
     let Shape::Instance(instance) = &geometry.solids[solid as usize].shape else {
         return target != PrimitiveId::solid(solid)
@@ -130,6 +152,66 @@ pub fn any_in_solid<K: Kernel>(kernel: &K, solid: u32, ray: &Ray, t_max: f64, ta
     };
     let local = instance.localize(geometry.space_of(instance), solid, ray, t_max, target);
     local.is_some_and(|local| kernel.any_triangle(instance.space, &local))
+}
+
+/// The closest hit of `solids` if it comes before `best`, else `best`.
+fn closest_one_by_one<K: Kernel + ?Sized>(
+    kernel: &K,
+    solids: &[u32],
+    ray: &Ray,
+    best: Option<Hit>,
+) -> Option<Hit> {
+    solids.iter().fold(best, |best, &solid| closest_in_solid(kernel, solid, ray, best))
+}
+
+/// Whether any of `solids` other than `target` is hit with t in (0, t_max).
+fn any_one_by_one<K: Kernel + ?Sized>(
+    kernel: &K,
+    solids: &[u32],
+    ray: &Ray,
+    t_max: f64,
+    target: PrimitiveId,
+) -> bool {
+    solids.iter().any(|&solid| any_in_solid(kernel, solid, ray, t_max, target))
+}
+
+/// [`Kernel::closest_linear_solid`] four abreast, and one by one only where that leaves a doubt.
+#[inline]
+fn closest_abreast<K: Kernel>(kernel: &K, instructions: Instructions, ray: &Ray) -> Option<Hit> {
+    let geometry = kernel.geometry();
+    let best = match instructions.closest_abreast(&geometry.abreast, ray) {
+        Nearest::None => None,
+        Nearest::Clear { solid, t } => geometry.clear_hit(solid, ray, t),
+        Nearest::Unclear => return closest_one_by_one(kernel, &geometry.linear_solids, ray, None),
+    };
+    let best = match ray.leaving.as_solid() {
+        Some(solid) if ray.inward => closest_in_solid(kernel, solid, ray, best),
+        _ => best,
+    };
+    closest_one_by_one(kernel, geometry.abreast.rest(), ray, best)
+}
+
+/// [`Kernel::any_linear_solid`] four abreast, and one by one only where that leaves a doubt.
+#[inline]
+fn any_abreast<K: Kernel>(
+    kernel: &K,
+    instructions: Instructions,
+    ray: &Ray,
+    t_max: f64,
+    target: PrimitiveId,
+) -> bool {
+    let geometry = kernel.geometry();
+    if ray.inward
+        && let Some(solid) = ray.leaving.as_solid()
+        && any_in_solid(kernel, solid, ray, t_max, target)
+    {
+        return true;
+    }
+    match instructions.any_abreast(&geometry.abreast, ray, t_max, target) {
+        Some(true) => true,
+        Some(false) => any_one_by_one(kernel, geometry.abreast.rest(), ray, t_max, target),
+        None => any_one_by_one(kernel, &geometry.linear_solids, ray, t_max, target),
+    }
 }
 
 impl<K: Kernel> Accelerator for K {
@@ -156,10 +238,7 @@ impl<K: Kernel> Accelerator for K {
 /// The closest hit of a ray with a unit direction.
 fn closest<K: Kernel>(kernel: &K, ray: &Ray) -> Option<Hit> {
     let geometry = kernel.geometry();
-    let mut best: Option<Hit> = None;
-    for &solid in &geometry.linear_solids {
-        best = closest_in_solid(kernel, solid, ray, best);
-    }
+    let mut best = if geometry.linear_solids.is_empty() { None } else { kernel.closest_linear_solid(ray) };
     if !geometry.tree_solids.is_empty() {
         let frame = &geometry.solid_frame;
         if let Some(local) = frame.localize(ray, frame.widen(distance(&best)), NO_TRIANGLES) {
@@ -183,7 +262,7 @@ fn closest<K: Kernel>(kernel: &K, ray: &Ray) -> Option<Hit> {
 /// Whether anything but `target` is in the way of a ray with a unit direction.
 fn any<K: Kernel>(kernel: &K, ray: &Ray, t_max: f64, target: PrimitiveId) -> bool {
     let geometry = kernel.geometry();
-    if geometry.linear_solids.iter().any(|&solid| any_in_solid(kernel, solid, ray, t_max, target)) {
+    if !geometry.linear_solids.is_empty() && kernel.any_linear_solid(ray, t_max, target) {
         return true;
     }
     if !geometry.tree_solids.is_empty()

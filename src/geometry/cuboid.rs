@@ -1,6 +1,7 @@
 //! The box, in f64. (`Box` is taken by the language.)
 
 use super::Rectangle;
+use super::doubles::{Doubles, One};
 use crate::math::{Bounds, DMat3, DVec3};
 
 /// A box that may be turned.
@@ -24,17 +25,9 @@ impl Cuboid {
         let d = self.to_local(direction);
         let mut enter = (f64::NEG_INFINITY, 0);
         let mut leave = (f64::INFINITY, 0);
-        for axis in 0..3u32 {
-            let (o, d, h) = (o[axis as usize], d[axis as usize], self.half[axis as usize]);
-            if d == 0.0 {
-                if o.abs() > h {
-                    return None;
-                }
-                continue;
-            }
-            let (t_low, t_high) = ((-h - o) / d, (h - o) / d);
-            let (near, far, near_face) =
-                if d > 0.0 { (t_low, t_high, 2 * axis) } else { (t_high, t_low, 2 * axis + 1) };
+        for axis in 0..3 {
+            let (near, far) = slab(One, o[axis], d[axis], self.half[axis]);
+            let near_face = 2 * axis as u32 + u32::from(d[axis].is_sign_negative());
             if near > enter.0 {
                 enter = (near, near_face);
             }
@@ -114,4 +107,39 @@ impl Cuboid {
             r.x_axis.abs() * self.half.x + r.y_axis.abs() * self.half.y + r.z_axis.abs() * self.half.z;
         Bounds { min: self.center - reach, max: self.center + reach }
     }
+}
+
+/// The distances at which a line passes the two planes of a slab, nearer first. Along a slab they are infinite: before
+/// and after everything from inside of it, both on the same side of everything from outside, and in one of its planes
+/// NaN, which neither begins nor ends anything.
+#[inline(always)]
+fn slab<L: Doubles>(
+    lanes: L,
+    origin: L::Double,
+    direction: L::Double,
+    half: L::Double,
+) -> (L::Double, L::Double) {
+    let last = lanes.with_sign(half, direction);
+    let first = lanes.minus(lanes.same(0.0), last);
+    let (first, last) = (lanes.minus(first, origin), lanes.minus(last, origin));
+    (lanes.over(first, direction), lanes.over(last, direction))
+}
+
+/// The distances at which a line enters and leaves a box, of [`Cuboid::slabs`]; the first is the greater one if it
+/// misses. `axes` are those of the box.
+#[inline(always)]
+pub(super) fn enter_and_leave<L: Doubles>(
+    lanes: L,
+    axes: [[L::Double; 3]; 3],
+    half: [L::Double; 3],
+    from_center: [L::Double; 3],
+    direction: [L::Double; 3],
+) -> (L::Double, L::Double) {
+    let (mut enter, mut leave) = (lanes.same(f64::NEG_INFINITY), lanes.same(f64::INFINITY));
+    for axis in 0..3 {
+        let (o, d) = (lanes.dot(from_center, axes[axis]), lanes.dot(direction, axes[axis]));
+        let (near, far) = slab(lanes, o, d, half[axis]);
+        (enter, leave) = (lanes.greater(near, enter), lanes.lesser(far, leave));
+    }
+    (enter, leave)
 }

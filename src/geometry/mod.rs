@@ -20,10 +20,12 @@
 
 mod ball;
 mod cuboid;
+mod doubles;
 mod frame;
 mod id;
 mod instance;
 mod lanes;
+mod linear_solids;
 mod mesh_space;
 mod rectangle;
 mod scene;
@@ -33,10 +35,12 @@ mod triangle;
 
 pub use ball::Ball;
 pub use cuboid::Cuboid;
+pub(crate) use doubles::{Doubles, FourDoubles};
 pub use frame::{LocalFrame, LocalRay};
 pub use id::PrimitiveId;
 pub use instance::Instance;
 pub(crate) use lanes::Lanes;
+pub(crate) use linear_solids::{LinearSolids, Nearest};
 pub use mesh_space::{MeshEntry, MeshPart, MeshSpace};
 pub use rectangle::Rectangle;
 pub use scene::{Geometry, Shape, Solid};

@@ -1,5 +1,6 @@
 //! The rectangle: two triangles with f64 corners that share a diagonal.
 
+use super::doubles::{Doubles, One};
 use super::shear::{Shear, signed_area};
 use crate::math::{Bounds, DVec3};
 
@@ -18,10 +19,97 @@ pub struct Rectangle {
     corners: [DVec3; 4],
     /// Sum of the edges' lengths.
     pub(super) reach: f64,
+    /// The edges over the squares of their lengths.
+    along_u: DVec3,
+    along_v: DVec3,
+    slack: [f64; 2],
 }
 
 /// Distance, triangle (0 or 1) and coordinates in [0, 1].
 type RectangleHit = (f64, u32, f64, f64);
+
+/// A rectangle, or several, as coordinates in f64 see it.
+pub(super) struct Pane<N> {
+    pub(super) center: [N; 3],
+    pub(super) normal: [N; 3],
+    /// The edges over the squares of their lengths.
+    pub(super) along_u: [N; 3],
+    pub(super) along_v: [N; 3],
+    /// See [`SLACK`]: the part that the rectangle knows, and the factor on the size of the ray's origin.
+    pub(super) slack: [N; 2],
+}
+
+/// What coordinates say for certain.
+pub(super) struct Clearance<N> {
+    /// Below 0 if the rectangle is missed.
+    pub(super) misses: N,
+    /// Above 0 if it is hit, on the side of the diagonal that the coordinates tell.
+    pub(super) hits: N,
+}
+
+/// By how much coordinates may deceive, as a part of R over the shorter edge and over the cosine of the angle to the
+/// normal: 2^-42. R is the sum of the sizes of the ray's origin, the centre and the edges.
+///
+/// With e = 2^-53 the distance t to the plane is wrong by at most (8 e R + 8 e |t|) / cosine, and the point there by
+/// 4 e (R + |t|) more. Of points within 4 R that is less than 80 e R / cosine; of farther ones it is either less than their
+/// own distance from the rectangle, or the cosine is below 50 e and the slack above all coordinates. The exact signs are
+/// those of corners moved by up to 16 e R across the ray, which is at most 32 e R / cosine in the plane. Together less than
+/// 2^-46 R / cosine, and sqrt(2) of it beside the diagonal.
+const SLACK: f64 = 1.0 / 4_398_046_511_104.0;
+
+/// Larger numbers and the reciprocals of smaller ones than this are left to exact signs.
+const COMMON: f64 = 1e100;
+
+impl<N: Copy> Pane<N> {
+    /// The distance to the plane, and the cosine of the angle to its normal.
+    #[inline(always)]
+    pub(super) fn distance<L: Doubles<Double = N>>(
+        &self,
+        lanes: L,
+        origin: [N; 3],
+        direction: [N; 3],
+    ) -> (N, N) {
+        let cosine = lanes.dot(self.normal, direction);
+        (lanes.over(lanes.dot(self.normal, lanes.difference(self.center, origin)), cosine), cosine)
+    }
+
+    /// The coordinates of the point at `t`, in [-0.5, 0.5] within the rectangle.
+    #[inline(always)]
+    fn coordinates<L: Doubles<Double = N>>(
+        &self,
+        lanes: L,
+        origin: [N; 3],
+        direction: [N; 3],
+        t: N,
+    ) -> [N; 2] {
+        let p = lanes.along(lanes.difference(origin, self.center), direction, t);
+        [lanes.dot(p, self.along_u), lanes.dot(p, self.along_v)]
+    }
+
+    /// The coordinates of the point at `t`, and what they say for certain. `size` is the sum of the sizes of the
+    /// components of `origin`.
+    #[inline(always)]
+    pub(super) fn look<L: Doubles<Double = N>>(
+        &self,
+        lanes: L,
+        origin: [N; 3],
+        direction: [N; 3],
+        t: N,
+        cosine: N,
+        size: N,
+    ) -> ([N; 2], Clearance<N>) {
+        let [u, v] = self.coordinates(lanes, origin, direction, t);
+        let slack = lanes.plus(self.slack[0], lanes.times(self.slack[1], size));
+        let cosine = lanes.size(cosine);
+        let within = lanes.minus(lanes.same(0.5), lanes.greater(lanes.size(u), lanes.size(v)));
+        let off_diagonal = lanes.size(lanes.minus(u, v));
+        let clearance = Clearance {
+            misses: lanes.plus(lanes.times(within, cosine), slack),
+            hits: lanes.minus(lanes.times(lanes.lesser(within, off_diagonal), cosine), slack),
+        };
+        ([u, v], clearance)
+    }
+}
 
 impl Rectangle {
     /// The rectangle with these half edges; `half_u` and `half_v` are at right angles, `half_u` to the right seen
@@ -36,35 +124,81 @@ impl Rectangle {
         // Normalised first: the lengths may be as small as the square root of the smallest number.
         let normal = half_u.normalize().cross(half_v.normalize()).normalize();
         let (edge_u, edge_v) = (half_u * 2.0, half_v * 2.0);
-        Rectangle { center, edge_u, edge_v, normal, corners, reach: edge_u.length() + edge_v.length() }
+        let reach = edge_u.length() + edge_v.length();
+        let shorter = edge_u.length().min(edge_v.length());
+        // Infinite where squares might leave the range of numbers: then exact signs always decide.
+        let is_common = shorter > 1.0 / COMMON && center.abs().element_sum() + reach < COMMON;
+        let relative = if is_common { SLACK / shorter } else { f64::INFINITY };
+        Rectangle {
+            center,
+            edge_u,
+            edge_v,
+            normal,
+            corners,
+            reach,
+            along_u: edge_u / edge_u.length_squared(),
+            along_v: edge_v / edge_v.length_squared(),
+            slack: [relative * (center.abs().element_sum() + reach), relative],
+        }
     }
 
     /// Where the line meets the rectangle, up to `t_max`. It is decided as for the triangles of meshes, by exact signs of
-    /// corners that are seen along the ray: rectangles that share two corners let no ray through between them.
+    /// corners that are seen along the ray: rectangles that share two corners let no ray through between them. Away from
+    /// edges and from the diagonal the coordinates say the same.
     pub fn intersect(&self, origin: DVec3, direction: DVec3, t_max: f64) -> Option<RectangleHit> {
-        let cosine = self.normal.dot(direction);
-        if cosine == 0.0 {
+        let (pane, o, d) = (self.pane(), origin.to_array(), direction.to_array());
+        let (t, cosine) = pane.distance(One, o, d);
+        if !(t > 0.0 && t <= t_max && cosine != 0.0) {
             return None;
         }
-        let t = self.normal.dot(self.center - origin) / cosine;
-        if !(t > 0.0 && t <= t_max) {
+        let (uv, clearance) = pane.look(One, o, d, t, cosine, origin.abs().element_sum());
+        let part = if clearance.misses < 0.0 {
             return None;
+        } else if clearance.hits > 0.0 {
+            Self::part_at(uv)
+        } else {
+            self.part_hit(origin, direction)?
+        };
+        Some((t, part, edge_coordinate(uv[0]), edge_coordinate(uv[1])))
+    }
+
+    /// The part and the coordinates of a hit at `t` away from edges and diagonal.
+    #[inline(always)]
+    pub(super) fn clear_hit(&self, origin: DVec3, direction: DVec3, t: f64) -> (u32, f64, f64) {
+        let uv = self.pane().coordinates(One, origin.to_array(), direction.to_array(), t);
+        (Self::part_at(uv), edge_coordinate(uv[0]), edge_coordinate(uv[1]))
+    }
+
+    fn part_at([u, v]: [f64; 2]) -> u32 {
+        u32::from(u < v)
+    }
+
+    /// What a ray is tried against first.
+    #[inline(always)]
+    pub(super) fn pane(&self) -> Pane<f64> {
+        Pane {
+            center: self.center.to_array(),
+            normal: self.normal.to_array(),
+            along_u: self.along_u.to_array(),
+            along_v: self.along_v.to_array(),
+            slack: self.slack,
         }
+    }
+
+    /// The part that is hit, by exact signs, of a ray that meets the plane.
+    fn part_hit(&self, origin: DVec3, direction: DVec3) -> Option<u32> {
         let shear = Shear::onto_largest_axis(direction);
         let seen = |corner: usize| shear.project(self.corners[corner] - origin);
         let (a, b, c, d) = (seen(0), seen(1), seen(2), seen(3));
         let (ab, bc, cd, da) = (signed_area(a, b), signed_area(b, c), signed_area(c, d), signed_area(d, a));
         let ca = signed_area(c, a);
-        let part = if same_sign(ab, bc, ca) {
-            0
+        if same_sign(ab, bc, ca) {
+            Some(0)
         } else if same_sign(cd, da, -ca) {
-            1
+            Some(1)
         } else {
-            return None;
-        };
-        let p = (origin - self.center) + direction * t;
-        let along = |e: DVec3| (p.dot(e) / e.dot(e) + 0.5).clamp(0.0, 1.0);
-        Some((t, part, along(self.edge_u), along(self.edge_v)))
+            None
+        }
     }
 
     /// Area in square units.
@@ -86,4 +220,9 @@ impl Rectangle {
 /// Whether no two of these have opposite signs; not if all are zero, which is how a triangle without area is seen.
 fn same_sign(a: f64, b: f64, c: f64) -> bool {
     (a.min(b).min(c) >= 0.0 || a.max(b).max(c) <= 0.0) && a + b + c != 0.0
+}
+
+/// From [-0.5, 0.5] to [0, 1], without what rounding adds.
+fn edge_coordinate(x: f64) -> f64 {
+    (x + 0.5).clamp(0.0, 1.0)
 }

@@ -1,8 +1,8 @@
 //! All primitives of a scene: flat arrays joined by indices.
 
 use super::{
-    Ball, Cuboid, Hit, Instance, LocalFrame, LocalRay, MeshPart, MeshSpace, PrimitiveId, Ray, Rectangle,
-    TriangleHit,
+    Ball, Cuboid, Hit, Instance, LinearSolids, LocalFrame, LocalRay, MeshPart, MeshSpace, PrimitiveId, Ray,
+    Rectangle, TriangleHit,
 };
 use crate::math::{Bounds, round_down, round_up};
 
@@ -42,11 +42,16 @@ pub struct Geometry {
     pub solid_frame: LocalFrame,
     /// Indices of the solids that every ray is tried against: few ones, or much larger than the rest.
     pub linear_solids: Vec<u32>,
+    /// The same solids, four abreast.
+    pub(crate) abreast: LinearSolids,
     /// Indices of the solids that need a tree.
     pub tree_solids: Vec<u32>,
 }
 
-/// Up to this many solids are tried one after the other: no tree over three balls.
+/// Up to this many solids are tried four abreast: no tree over three balls.
+const WITHOUT_TREE: usize = 32;
+
+/// Up to this many solids are tried beside a tree, or in place of one if there are instances, which are not abreast.
 const LINEAR_SOLIDS: usize = 8;
 
 /// A solid so many times larger than the median one would widen every node and stays out of the tree.
@@ -73,10 +78,13 @@ impl Geometry {
         let mut spaces = shared;
         spaces.extend(in_groups(meshes).into_iter().map(MeshSpace::new));
         let bounds: Vec<Bounds> = solids.iter().map(|solid| solid.bounds(&spaces)).collect();
-        let (linear_solids, tree_solids) = split_solids(&bounds);
+        let instances = solids.iter().any(|solid| matches!(solid.shape, Shape::Instance(_)));
+        let most = if instances { LINEAR_SOLIDS } else { WITHOUT_TREE };
+        let (linear_solids, tree_solids) = split_solids(&bounds, most);
         let together = tree_solids.iter().fold(Bounds::EMPTY, |b, &i| b.union(bounds[i as usize]));
         let solid_frame = LocalFrame::around(together, together.center());
-        Geometry { spaces, instanced, solids, solid_frame, linear_solids, tree_solids }
+        let abreast = LinearSolids::new(&solids, &linear_solids);
+        Geometry { spaces, instanced, solids, solid_frame, linear_solids, abreast, tree_solids }
     }
 
     /// The spaces of the meshes that lie in the world, with their indices.
@@ -164,6 +172,19 @@ impl Geometry {
         }
     }
 
+    /// The hit of a solid that four-lane arithmetic says is surely hit at `t` ([`super::LinearSolids`]): the one of
+    /// [`Geometry::intersect_solid`].
+    #[inline]
+    pub(crate) fn clear_hit(&self, solid: u32, ray: &Ray, t: f64) -> Option<Hit> {
+        let &Solid { object, ref shape } = &self.solids[solid as usize];
+        let (part, u, v) = match shape {
+            Shape::Ball(_) => (0, 0.0, 0.0),
+            Shape::Rectangle(rectangle) => rectangle.clear_hit(ray.origin, ray.direction, t),
+            Shape::Cuboid(_) | Shape::Instance(_) => return self.intersect_solid(solid, ray, t),
+        };
+        Some(Hit { t, object, primitive: PrimitiveId::solid(solid), part, u, v })
+    }
+
     /// The hit of the local ray `ray` in a space of the world as a hit of the path's ray.
     pub fn world_hit(&self, space: u32, ray: &LocalRay, hit: &TriangleHit) -> Hit {
         let mesh = &self.spaces[space as usize];
@@ -236,10 +257,10 @@ fn places_in_range(sized: &[(Bounds, usize)], range: f64) -> Option<Vec<Vec<usiz
     Some(groups.into_iter().map(|(_, places)| places).collect())
 }
 
-/// Indices of the solids that every ray is tried against, and of those that need a tree.
-fn split_solids(bounds: &[Bounds]) -> (Vec<u32>, Vec<u32>) {
+/// Indices of the solids that every ray is tried against, and of those that need a tree, as more than `most` do.
+fn split_solids(bounds: &[Bounds], most: usize) -> (Vec<u32>, Vec<u32>) {
     let all = 0..bounds.len() as u32;
-    if bounds.len() <= LINEAR_SOLIDS {
+    if bounds.len() <= most {
         return (all.collect(), Vec::new());
     }
     let extents: Vec<f64> = bounds.iter().map(|bounds| bounds.extent()).collect();

@@ -24,7 +24,7 @@ use self::node::{Node, NodeRay};
 pub(super) use self::simd::Instructions;
 use self::split::PrimRef;
 use super::fault::Fault;
-use super::{BuildOptions, BvhQuality, Isa, Kernel, Precision};
+use super::{BuildOptions, BvhQuality, Isa, Kernel, Precision, any_abreast, closest_abreast};
 use crate::error::Result;
 use crate::geometry::{
     Geometry, Hit, LocalRay, MeshSpace, PrimitiveId, Ray, ShearedRay, TriangleBlock, TriangleHit,
@@ -222,6 +222,14 @@ impl Kernel for Bvh<'_> {
         }
         let leaf = FastTriangles::new(blocks, ray);
         self.instructions.any(nodes, &node_ray, &leaf)
+    }
+
+    fn closest_linear_solid(&self, ray: &Ray) -> Option<Hit> {
+        closest_abreast(self, self.instructions, ray)
+    }
+
+    fn any_linear_solid(&self, ray: &Ray, t_max: f64, target: PrimitiveId) -> bool {
+        any_abreast(self, self.instructions, ray, t_max, target)
     }
 
     fn closest_solid(&self, ray: &Ray, local: &LocalRay, best: Option<Hit>) -> Option<Hit> {

@@ -21,7 +21,8 @@ mod native;
 mod scene;
 mod solids;
 
-use super::{BuildOptions, Kernel, Precision};
+use super::bvh::Instructions;
+use super::{BuildOptions, Kernel, Precision, any_abreast, closest_abreast};
 use crate::error::Result;
 use crate::geometry::{Geometry, Hit, LocalRay, MeshSpace, PrimitiveId, Ray, TriangleHit};
 use blocks::Blocks;
@@ -36,6 +37,7 @@ pub struct Embree<'g> {
     triangles: Vec<Triangles<'g>>,
     solids: Option<Solids<'g>>,
     bytes: usize,
+    instructions: Instructions,
 }
 
 /// The scene over the triangles of a space.
@@ -61,6 +63,7 @@ impl<'g> Embree<'g> {
     /// too little memory.
     pub fn build(geometry: &'g Geometry, options: &BuildOptions) -> Result<Embree<'g>> {
         let device = Device::new(options.isa)?;
+        let instructions = Instructions::choose(options.isa)?;
         let build = |space: &'g MeshSpace| {
             Ok(match options.precision {
                 Precision::Exact => Triangles::Exact(Blocks::build(&device, space, options)?),
@@ -73,7 +76,7 @@ impl<'g> Embree<'g> {
         let some_solids = !geometry.tree_solids.is_empty();
         let solids = some_solids.then(|| Solids::build(&device, geometry)).transpose()?;
         let blocks: usize = triangles.iter().map(Triangles::block_bytes).sum();
-        Ok(Embree { geometry, triangles, solids, bytes: device.bytes() + blocks })
+        Ok(Embree { geometry, triangles, solids, bytes: device.bytes() + blocks, instructions })
     }
 
     /// Bytes of trees and leaves as Embree counts them, and of the blocks of exact, without the geometry's own arrays.
@@ -99,6 +102,14 @@ impl Kernel for Embree<'_> {
             Triangles::Exact(blocks) => blocks.any(ray),
             Triangles::Native(triangles) => triangles.any(ray),
         }
+    }
+
+    fn closest_linear_solid(&self, ray: &Ray) -> Option<Hit> {
+        closest_abreast(self, self.instructions, ray)
+    }
+
+    fn any_linear_solid(&self, ray: &Ray, t_max: f64, target: PrimitiveId) -> bool {
+        any_abreast(self, self.instructions, ray, t_max, target)
     }
 
     fn closest_solid(&self, ray: &Ray, local: &LocalRay, best: Option<Hit>) -> Option<Hit> {

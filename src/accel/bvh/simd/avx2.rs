@@ -6,7 +6,7 @@ use std::arch::x86_64::*;
 use super::super::node::{Node, NodeRay, WIDTH};
 use super::NodeTest;
 use super::stack::{Entry, LANE_BITS, Stack};
-use crate::geometry::Lanes;
+use crate::geometry::{Doubles, FourDoubles, Lanes};
 
 /// The proof that there is AVX2.
 #[derive(Clone, Copy)]
@@ -119,6 +119,126 @@ impl Lanes for Avx2 {
     fn at_most(self, a: __m256, b: __m256) -> u32 {
         // SAFETY: there is AVX2.
         unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(a, b)) as u32 }
+    }
+}
+
+impl Doubles for Avx2 {
+    type Double = __m256d;
+    type Mask = __m256d;
+
+    #[inline(always)]
+    fn same(self, x: f64) -> __m256d {
+        // SAFETY: there is AVX2.
+        unsafe { _mm256_set1_pd(x) }
+    }
+
+    #[inline(always)]
+    fn plus(self, a: __m256d, b: __m256d) -> __m256d {
+        // SAFETY: there is AVX2.
+        unsafe { _mm256_add_pd(a, b) }
+    }
+
+    #[inline(always)]
+    fn minus(self, a: __m256d, b: __m256d) -> __m256d {
+        // SAFETY: there is AVX2.
+        unsafe { _mm256_sub_pd(a, b) }
+    }
+
+    #[inline(always)]
+    fn times(self, a: __m256d, b: __m256d) -> __m256d {
+        // SAFETY: there is AVX2.
+        unsafe { _mm256_mul_pd(a, b) }
+    }
+
+    #[inline(always)]
+    fn over(self, a: __m256d, b: __m256d) -> __m256d {
+        // SAFETY: there is AVX2.
+        unsafe { _mm256_div_pd(a, b) }
+    }
+
+    #[inline(always)]
+    fn lesser(self, a: __m256d, b: __m256d) -> __m256d {
+        // SAFETY: there is AVX2.
+        unsafe { _mm256_min_pd(a, b) }
+    }
+
+    #[inline(always)]
+    fn greater(self, a: __m256d, b: __m256d) -> __m256d {
+        // SAFETY: there is AVX2.
+        unsafe { _mm256_max_pd(a, b) }
+    }
+
+    #[inline(always)]
+    fn both(self, a: __m256d, b: __m256d) -> __m256d {
+        // SAFETY: there is AVX2.
+        unsafe { _mm256_and_pd(a, b) }
+    }
+
+    #[inline(always)]
+    fn root(self, a: __m256d) -> __m256d {
+        // SAFETY: there is AVX2.
+        unsafe { _mm256_sqrt_pd(a) }
+    }
+
+    #[inline(always)]
+    fn size(self, a: __m256d) -> __m256d {
+        // SAFETY: there is AVX2.
+        unsafe { _mm256_andnot_pd(_mm256_set1_pd(-0.0), a) }
+    }
+
+    #[inline(always)]
+    fn with_sign(self, a: __m256d, sign: __m256d) -> __m256d {
+        // SAFETY: there is AVX2.
+        unsafe {
+            let signs = _mm256_set1_pd(-0.0);
+            _mm256_or_pd(_mm256_and_pd(signs, sign), _mm256_andnot_pd(signs, a))
+        }
+    }
+
+    #[inline(always)]
+    fn is_less(self, a: __m256d, b: __m256d) -> __m256d {
+        // SAFETY: there is AVX2.
+        unsafe { _mm256_cmp_pd::<_CMP_LT_OQ>(a, b) }
+    }
+
+    #[inline(always)]
+    fn is_at_most(self, a: __m256d, b: __m256d) -> __m256d {
+        // SAFETY: there is AVX2.
+        unsafe { _mm256_cmp_pd::<_CMP_LE_OQ>(a, b) }
+    }
+
+    #[inline(always)]
+    fn differs(self, a: __m256d, b: __m256d) -> __m256d {
+        // SAFETY: there is AVX2.
+        unsafe { _mm256_cmp_pd::<_CMP_NEQ_UQ>(a, b) }
+    }
+
+    #[inline(always)]
+    fn choose(self, mask: __m256d, a: __m256d, b: __m256d) -> __m256d {
+        // SAFETY: there is AVX2.
+        unsafe { _mm256_blendv_pd(b, a, mask) }
+    }
+}
+
+impl FourDoubles for Avx2 {
+    #[inline(always)]
+    fn from_memory(self, lanes: &[f64; 4]) -> __m256d {
+        // SAFETY: there is AVX2; there are four lanes.
+        unsafe { _mm256_loadu_pd(lanes.as_ptr()) }
+    }
+
+    #[inline(always)]
+    fn to_memory(self, a: __m256d) -> [f64; 4] {
+        let mut lanes = [0f64; 4];
+        // SAFETY: as above.
+        unsafe { _mm256_storeu_pd(lanes.as_mut_ptr(), a) };
+        lanes
+    }
+
+    #[inline(always)]
+    fn any(self, mask: __m256d) -> bool {
+        // SAFETY: there is AVX2.
+        unsafe { _mm256_movemask_pd(mask) != 0 }
     }
 }
 

@@ -18,7 +18,7 @@ use super::node::{Node, NodeRay};
 use super::traverse::{self, Leaf};
 use crate::accel::Isa;
 use crate::error::{Error, Result};
-use crate::geometry::Lanes;
+use crate::geometry::{Lanes, LinearSolids, Nearest, PrimitiveId, Ray};
 #[cfg(feature = "embree")]
 use crate::geometry::{ShearedRay, TriangleBlock, TriangleHit, any_in_lanes, closest_in_lanes};
 
@@ -71,6 +71,49 @@ impl Instructions {
             Isa::Avx512 => unsafe { any_avx512(nodes, ray, leaf) },
         }
     }
+}
+
+/// Solids without a tree.
+impl Instructions {
+    /// [`LinearSolids::closest`] in these instructions.
+    #[inline]
+    pub(in crate::accel) fn closest_abreast(self, solids: &LinearSolids, ray: &Ray) -> Nearest {
+        match self.0 {
+            // SAFETY: SSE2 is part of x86-64.
+            Isa::Sse2 => solids.closest(ray, unsafe { Sse2::new() }),
+            // SAFETY: `choose` has found these instructions, or more.
+            Isa::Avx2 | Isa::Avx512 => unsafe { closest_abreast_avx2(solids, ray) },
+        }
+    }
+
+    /// [`LinearSolids::any`] in these instructions.
+    #[inline]
+    pub(in crate::accel) fn any_abreast(
+        self,
+        solids: &LinearSolids,
+        ray: &Ray,
+        t_max: f64,
+        target: PrimitiveId,
+    ) -> Option<bool> {
+        match self.0 {
+            // SAFETY: SSE2 is part of x86-64.
+            Isa::Sse2 => solids.any(ray, t_max, target, unsafe { Sse2::new() }),
+            // SAFETY: `choose` has found these instructions, or more.
+            Isa::Avx2 | Isa::Avx512 => unsafe { any_abreast_avx2(solids, ray, t_max, target) },
+        }
+    }
+}
+
+#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+fn closest_abreast_avx2(solids: &LinearSolids, ray: &Ray) -> Nearest {
+    // SAFETY: this function is only called where there is AVX2.
+    solids.closest(ray, unsafe { Avx2::new() })
+}
+
+#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+fn any_abreast_avx2(solids: &LinearSolids, ray: &Ray, t_max: f64, target: PrimitiveId) -> Option<bool> {
+    // SAFETY: this function is only called where there is AVX2.
+    solids.any(ray, t_max, target, unsafe { Avx2::new() })
 }
 
 /// The shared leaf alone, for Embree's callbacks.
