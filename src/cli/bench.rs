@@ -4,8 +4,8 @@ use super::arguments::{BenchJob, Subject};
 use super::console::say;
 use super::event::emit;
 use super::file::OutputFile;
+use super::plot_file::PlotFile;
 use crate::error::{Error, Result};
-use crate::picture::{Destination, Pixels};
 use crate::render::available_bytes;
 use crate::scene;
 use crate::study::bench::{self, Growth, Row, Rung};
@@ -16,7 +16,6 @@ use crate::study::table::{Figure, Table, counted, csv, grouped, short};
 use crate::world::World;
 use serde::Serialize;
 use std::io::{self, Write as _};
-use std::path::Path;
 
 /// Measures; returns the exit code.
 pub(super) fn run(job: &BenchJob) -> anyhow::Result<u8> {
@@ -218,36 +217,6 @@ fn leaks(rung: &Rung) -> Option<Table> {
         table.push([name].into_iter().chain(row.leaks.iter().map(|leak| grouped(leak.lost))));
     }
     Some(table)
-}
-
-/// A place for a plot.
-enum PlotFile {
-    Svg(OutputFile),
-    Png(Destination),
-}
-
-impl PlotFile {
-    fn new(path: &Path) -> Result<PlotFile> {
-        let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-        match extension.as_str() {
-            "svg" => Ok(PlotFile::Svg(OutputFile::new(path)?)),
-            "png" => Ok(PlotFile::Png(Destination::new(path)?)),
-            _ => Err(Error::Usage(format!(
-                "the plot {} has no known extension; known are .svg, .png",
-                path.display()
-            ))),
-        }
-    }
-
-    fn write(&self, plot: &Plot<'_>) -> Result<()> {
-        match self {
-            PlotFile::Svg(file) => file.write(&plot.svg()?),
-            PlotFile::Png(file) => {
-                let (pixels, width, height) = plot.pixels()?;
-                file.write(width, height, &Pixels::Bytes(pixels))
-            }
-        }
-    }
 }
 
 /// A line of `--json`.

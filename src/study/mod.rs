@@ -2,6 +2,7 @@
 //!
 //! - [`compare`]: both accelerators on the same rays of one scene, hits compared bit by bit.
 //! - [`bench`](mod@bench): both accelerators at all precisions on meshes of growing size.
+//! - [`tradeoff`]: what every knob of a render costs in time and gains in accuracy.
 //!
 //! Both stand on the same parts: [`meshes`] to measure on, [`rays`] to measure with (from a [`view`] of a mesh, or
 //! recorded from real paths, [`record`]), [`contender`]s that are timed in interleaved rounds ([`rounds`]), a
@@ -13,12 +14,16 @@ pub mod contender;
 pub mod leaks;
 pub mod machine;
 pub mod meshes;
+pub mod metrics;
 pub mod plot;
 pub mod rays;
 pub mod record;
 pub mod rounds;
+pub mod seams;
+pub mod statistics;
 pub mod table;
 pub mod tally;
+pub mod tradeoff;
 pub mod verdict;
 pub mod view;
 
