@@ -48,7 +48,9 @@ fn the_front_is_what_nothing_beats() {
 fn intervals_of_shares_are_wilsons() {
     // Newcombe, "Two-sided confidence intervals for the single proportion", Statistics in Medicine 17, 1998, table I,
     // method 3, four decimals.
-    for (hits, trials, low, high) in [(81, 263, 0.2553, 0.3662), (15, 148, 0.0624, 0.1605), (0, 20, 0.0, 0.1611)] {
+    for (hits, trials, low, high) in
+        [(81, 263, 0.2553, 0.3662), (15, 148, 0.0624, 0.1605), (0, 20, 0.0, 0.1611)]
+    {
         let (a, b) = share_interval(hits, trials);
         assert!((a - low).abs() < 5.1e-5 && (b - high).abs() < 5.1e-5, "{hits} of {trials}: {a} {b}");
     }

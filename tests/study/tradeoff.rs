@@ -150,7 +150,12 @@ fn one_seed_and_a_reference_of_another_size_are_refused() {
 
 /// Variances 1 / n and a second for 1000 samples.
 fn curve(floor: f64) -> Curve<'static> {
-    Curve { samples: &[1, 4, 16], variances: vec![1.0, 0.25, 0.0625], seconds: vec![1e-3, 4e-3, 16e-3], floor }
+    Curve {
+        samples: &[1, 4, 16],
+        variances: vec![1.0, 0.25, 0.0625],
+        seconds: vec![1e-3, 4e-3, 16e-3],
+        floor,
+    }
 }
 
 #[test]

@@ -75,7 +75,7 @@ pub(in crate::cli) struct TradeoffArguments {
     /// The first seed
     #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 0, value_parser = clap::value_parser!(u64).range(..u64::MAX - 1000))]
     seed: u64,
-    /// A glance within seconds: 64x36 pixels, 8 seeds, 1 to 16 samples, few rays
+    /// A glance within seconds: 64x36 pixels, 8 seeds, 1 to 16 samples, 20, 5 and 2 bounces, few rays
     #[arg(long)]
     quick: bool,
     /// Write all figures as CSV
@@ -131,7 +131,7 @@ impl TradeoffArguments {
         let mut bounces: Vec<u32> =
             self.bounces.iter().map(|&bounces| u32::try_from(bounces)).collect::<Result<_, _>>()?;
         if bounces.is_empty() {
-            bounces = vec![20, 10, 5, 3, 2];
+            bounces = if self.quick { vec![20, 5, 2] } else { vec![20, 10, 5, 3, 2] };
         }
         bounces.sort_unstable_by(|a, b| b.cmp(a));
         bounces.dedup();

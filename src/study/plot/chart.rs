@@ -15,6 +15,9 @@ const CHART: (u32, u32) = (1000, 460);
 const LEGEND: u32 = 250;
 const HEADING: u32 = 76;
 
+/// Pixels of the dashes and gaps of guides, in their order.
+const DASHES: [(u32, u32); 3] = [(9, 5), (3, 4), (16, 4)];
+
 /// Several charts.
 #[derive(Clone, Debug)]
 pub struct Sheet {
@@ -181,8 +184,8 @@ impl Chart {
             .light_line_style(TRANSPARENT)
             .draw()
             .map_err(failed)?;
-        for guide in &self.guides {
-            self.draw_guide(&mut chart, guide)?;
+        for (i, guide) in self.guides.iter().enumerate() {
+            self.draw_guide(&mut chart, guide, DASHES[i % DASHES.len()])?;
         }
         for series in &self.series {
             self.draw_series(&mut chart, series)?;
@@ -225,6 +228,7 @@ impl Chart {
         &self,
         chart: &mut ChartContext<'_, DB, Plane>,
         guide: &Guide,
+        (dash, gap): (u32, u32),
     ) -> Result<()> {
         const STEPS: usize = 400;
         let (x, y) = (self.axis(0), self.axis(1));
@@ -234,7 +238,7 @@ impl Chart {
             (x, guide.through[1] * (x / guide.through[0]).powf(guide.power))
         };
         let inside: Vec<(f64, f64)> = (0..=STEPS).map(at).filter(|point| y.contains(point.1)).collect();
-        let line = DashedLineSeries::new(inside, 6, 5, GREY.stroke_width(1));
+        let line = DashedLineSeries::new(inside, dash, gap, GREY.stroke_width(1));
         chart.draw_series(line).map_err(failed)?;
         Ok(())
     }
@@ -252,9 +256,10 @@ impl Chart {
             write(area, &series.name, (48, y - 9), 16, INK)?;
             y += LINE;
         }
-        for guide in &self.guides {
-            for x in [6, 17, 28] {
-                let dash = PathElement::new([(x, y), (x + 6, y)], GREY);
+        for (i, guide) in self.guides.iter().enumerate() {
+            let (dash, gap) = DASHES[i % DASHES.len()];
+            for x in (6..38 - dash as i32).step_by((dash + gap) as usize) {
+                let dash = PathElement::new([(x, y), (x + dash as i32, y)], GREY);
                 area.draw(&dash).map_err(failed)?;
             }
             write(area, &guide.name, (48, y - 9), 16, GREY)?;
