@@ -19,6 +19,9 @@ use std::io::{self, Write as _};
 
 /// Measures; returns the exit code.
 pub(super) fn run(job: &BenchJob) -> anyhow::Result<u8> {
+    if let Subject::Scaling(options) = &job.subject {
+        return super::scaling::run(job, options);
+    }
     // Whatever can be known to fail fails before the work.
     let table = job.csv.as_deref().map(OutputFile::new).transpose()?;
     let plots = job.plots.iter().map(|path| PlotFile::new(path)).collect::<Result<Vec<PlotFile>>>()?;
@@ -59,6 +62,7 @@ fn measure(job: &BenchJob, shown: &Shown<'_>) -> anyhow::Result<Vec<Rung>> {
             shown.rung(&rung);
             Ok(vec![rung])
         }
+        Subject::Scaling(_) => Ok(Vec::new()),
         Subject::Generated(families, sizes) => {
             check_memory(sizes)?;
             let mut all = Vec::new();
@@ -162,7 +166,7 @@ impl Shown<'_> {
 }
 
 /// Prints with an empty line behind. A reader that has gone away does not stop the measurement.
-fn print(text: &str) {
+pub(super) fn print(text: &str) {
     let mut stdout = io::stdout().lock();
     let _ = writeln!(stdout, "{text}").and_then(|()| stdout.flush());
 }

@@ -16,6 +16,7 @@ mod interrupt;
 mod plot_file;
 mod progress;
 mod render;
+mod scaling;
 mod tradeoff;
 
 use crate::error::Error;

@@ -3,8 +3,9 @@
 use super::grid::{Frame, Variant};
 use crate::error::{Error, Result};
 use crate::output::linear_floats;
-use crate::render::{Progress, Rendered, Watch, available_bytes, render};
+use crate::render::{Rendered, available_bytes, render};
 use crate::scene::desc::CameraDesc;
+use crate::study::rounds::Nobody;
 use crate::world::World;
 
 /// One render.
@@ -79,15 +80,5 @@ fn check_memory(frame: &Frame, configurations: usize, seeds: usize) -> Result<()
             available as f64 / 1e9
         ))),
         _ => Ok(()),
-    }
-}
-
-struct Nobody;
-
-impl Watch for Nobody {
-    fn progress(&self, _: &Progress) {}
-
-    fn cancelled(&self) -> bool {
-        false
     }
 }
