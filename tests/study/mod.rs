@@ -8,6 +8,7 @@ mod meshes;
 mod metrics;
 mod plot;
 mod rays;
+mod scaling;
 mod seams;
 mod statistics;
 mod table;

@@ -184,6 +184,9 @@ impl Analysis<'_> {
     }
 }
 
+/// Seconds and error of a configuration, over the seeds with the given indices.
+type Cost<'c> = dyn Fn(usize, &[usize]) -> (f64, f64) + 'c;
+
 /// Who is on the Pareto front, and in which share of the resamples.
 struct Fronts {
     whole: Vec<bool>,
@@ -191,7 +194,7 @@ struct Fronts {
 }
 
 impl Fronts {
-    fn of(bootstrap: &Bootstrap, count: usize, cost: &dyn Fn(usize, &[usize]) -> (f64, f64)) -> Fronts {
+    fn of(bootstrap: &Bootstrap, count: usize, cost: &Cost<'_>) -> Fronts {
         let front =
             |seeds: &[usize]| pareto_front(&(0..count).map(|i| cost(i, seeds)).collect::<Vec<(f64, f64)>>());
         let mut fronts = bootstrap.map(front);

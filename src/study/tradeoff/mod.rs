@@ -143,7 +143,7 @@ pub fn run(
         target: options.target,
         recommendation,
         rays,
-        pictures: shots.into_iter().filter_map(|mut shots| Some(shots.swap_remove(0).pixels)).collect(),
+        pictures: shots.into_iter().map(|mut shots| shots.swap_remove(0).pixels).collect(),
         truth: truth.pixels,
     })
 }

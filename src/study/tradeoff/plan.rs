@@ -33,7 +33,7 @@ impl Curve<'_> {
     pub fn plan(&self, target: f64) -> Option<Plan> {
         let goal = target - self.floor;
         let (&first, &last) = (self.samples.first()?, self.samples.last()?);
-        if !(goal > 0.0) || self.variances.iter().any(|variance| !variance.is_finite()) {
+        if goal.is_nan() || goal <= 0.0 || self.variances.iter().any(|variance| !variance.is_finite()) {
             return None;
         }
         let exact = self.samples_for(goal);
