@@ -2,10 +2,12 @@
 
 mod bench;
 mod compare;
+mod tradeoff;
 mod values;
 
 pub(super) use bench::{BenchArguments, BenchJob, Subject};
 pub(super) use compare::{CompareArguments, CompareJob};
+pub(super) use tradeoff::{TradeoffArguments, TradeoffJob};
 pub(super) use values::{ACCELS, BVHS, ISAS, PRECISIONS, name_of};
 
 use crate::accel::{BvhQuality, Isa, Precision};
@@ -39,7 +41,8 @@ static VERSION: LazyLock<String> = LazyLock::new(|| {
     override_usage = "pathtracer [OPTIONS] SCENE WIDTH HEIGHT SAMPLES BOUNCES IMAGE\n       \
                       pathtracer check SCENE...\n       \
                       pathtracer compare [OPTIONS] SCENE\n       \
-                      pathtracer bench [OPTIONS] [SCENE | OBJ]",
+                      pathtracer bench [OPTIONS] [SCENE | OBJ]\n       \
+                      pathtracer tradeoff [OPTIONS] SCENE",
     args_conflicts_with_subcommands = true,
     disable_help_subcommand = true
 )]
@@ -67,6 +70,8 @@ pub(super) enum Command {
     Compare(CompareArguments),
     /// Measure both accelerators at all precisions on meshes of growing size, or on one's own scene or mesh
     Bench(BenchArguments),
+    /// Measure what every setting of a scene's renders costs in time and gains in accuracy
+    Tradeoff(TradeoffArguments),
 }
 
 /// A render as it was typed.
@@ -235,7 +240,8 @@ impl RenderArguments {
 fn usage(message: &str) -> Error {
     Error::Usage(format!(
         "{message}\n\nUsage: pathtracer [OPTIONS] {}\n       pathtracer check SCENE...\n       \
-         pathtracer compare [OPTIONS] SCENE\n       pathtracer bench [OPTIONS] [SCENE | OBJ]\n\nFor more information, try '--help'.",
+         pathtracer compare [OPTIONS] SCENE\n       pathtracer bench [OPTIONS] [SCENE | OBJ]\n       \
+         pathtracer tradeoff [OPTIONS] SCENE\n\nFor more information, try '--help'.",
         POSITIONALS.join(" ")
     ))
 }

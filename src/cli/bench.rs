@@ -4,8 +4,8 @@ use super::arguments::{BenchJob, Subject};
 use super::console::say;
 use super::event::emit;
 use super::file::OutputFile;
+use super::plot_file::PlotFile;
 use crate::error::{Error, Result};
-use crate::picture::{Destination, Pixels};
 use crate::render::available_bytes;
 use crate::scene;
 use crate::study::bench::{self, Growth, Row, Rung};
@@ -16,10 +16,12 @@ use crate::study::table::{Figure, Table, counted, csv, grouped, short};
 use crate::world::World;
 use serde::Serialize;
 use std::io::{self, Write as _};
-use std::path::Path;
 
 /// Measures; returns the exit code.
 pub(super) fn run(job: &BenchJob) -> anyhow::Result<u8> {
+    if let Subject::Scaling(options) = &job.subject {
+        return super::scaling::run(job, options);
+    }
     // Whatever can be known to fail fails before the work.
     let table = job.csv.as_deref().map(OutputFile::new).transpose()?;
     let plots = job.plots.iter().map(|path| PlotFile::new(path)).collect::<Result<Vec<PlotFile>>>()?;
@@ -60,6 +62,7 @@ fn measure(job: &BenchJob, shown: &Shown<'_>) -> anyhow::Result<Vec<Rung>> {
             shown.rung(&rung);
             Ok(vec![rung])
         }
+        Subject::Scaling(_) => Ok(Vec::new()),
         Subject::Generated(families, sizes) => {
             check_memory(sizes)?;
             let mut all = Vec::new();
@@ -163,7 +166,7 @@ impl Shown<'_> {
 }
 
 /// Prints with an empty line behind. A reader that has gone away does not stop the measurement.
-fn print(text: &str) {
+pub(super) fn print(text: &str) {
     let mut stdout = io::stdout().lock();
     let _ = writeln!(stdout, "{text}").and_then(|()| stdout.flush());
 }
@@ -218,36 +221,6 @@ fn leaks(rung: &Rung) -> Option<Table> {
         table.push([name].into_iter().chain(row.leaks.iter().map(|leak| grouped(leak.lost))));
     }
     Some(table)
-}
-
-/// A place for a plot.
-enum PlotFile {
-    Svg(OutputFile),
-    Png(Destination),
-}
-
-impl PlotFile {
-    fn new(path: &Path) -> Result<PlotFile> {
-        let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-        match extension.as_str() {
-            "svg" => Ok(PlotFile::Svg(OutputFile::new(path)?)),
-            "png" => Ok(PlotFile::Png(Destination::new(path)?)),
-            _ => Err(Error::Usage(format!(
-                "the plot {} has no known extension; known are .svg, .png",
-                path.display()
-            ))),
-        }
-    }
-
-    fn write(&self, plot: &Plot<'_>) -> Result<()> {
-        match self {
-            PlotFile::Svg(file) => file.write(&plot.svg()?),
-            PlotFile::Png(file) => {
-                let (pixels, width, height) = plot.pixels()?;
-                file.write(width, height, &Pixels::Bytes(pixels))
-            }
-        }
-    }
 }
 
 /// A line of `--json`.

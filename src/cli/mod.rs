@@ -13,8 +13,11 @@ mod event;
 mod file;
 mod findings;
 mod interrupt;
+mod plot_file;
 mod progress;
 mod render;
+mod scaling;
+mod tradeoff;
 
 use crate::error::Error;
 use arguments::{Arguments, Command};
@@ -28,6 +31,7 @@ pub fn run(arguments: &[OsString]) -> anyhow::Result<u8> {
         Some(Command::Check { scenes }) => Ok(check::run(&scenes)),
         Some(Command::Compare(arguments)) => compare::run(&arguments.resolve()?),
         Some(Command::Bench(arguments)) => bench::run(&arguments.resolve()?),
+        Some(Command::Tradeoff(arguments)) => tradeoff::run(&arguments.resolve()?),
         None => render::run(&render.resolve()?),
     }
 }

@@ -6,6 +6,8 @@ use super::meshes::Family;
 use super::rays::{RayKind, RaySet, Sphere};
 use super::record::{Recording, rays_of_paths};
 use super::rounds::{Spread, geometric_mean};
+use super::seams;
+use super::statistics::slope;
 use super::view::View;
 use super::{table::Figure, triangles};
 use crate::accel::bvh::Bvh;
@@ -138,7 +140,19 @@ pub fn scene(name: String, world: &World, camera: &CameraDesc, options: &Options
     })?;
     let sphere = Sphere::around(&world.geometry);
     sets.extend(sphere.map(|sphere| sphere.chords(options.rays, options.seed)));
-    Ok(measure(name, &world.geometry, &sets, options, &pools)?.0)
+    let (mut rung, contenders) = measure(name, &world.geometry, &sets, options, &pools)?;
+    if options.leak_rays > 0 {
+        let rays =
+            Aim::INSIDE.map(|aim| (aim, seams::rays(&world.geometry, aim, options.leak_rays, options.seed)));
+        for (row, contender) in rung.rows.iter_mut().zip(&contenders) {
+            let leak = |(aim, rays): &(Aim, Vec<seams::Sure>)| {
+                let lost = pools.all().install(|| seams::lost(contender.accelerator(), rays));
+                Leak { aim: *aim, rays: rays.len() as u64, lost }
+            };
+            row.leaks = rays.iter().filter(|(_, rays)| !rays.is_empty()).map(leak).collect();
+        }
+    }
+    Ok(rung)
 }
 
 fn seen(geometry: &Geometry, view: View, options: &Options, pools: &Pools) -> Result<Vec<RaySet>> {
@@ -259,15 +273,4 @@ pub fn growth(rungs: &[&Rung]) -> Vec<Growth> {
         build: power(&|row| row.build_seconds[0].median, i),
     };
     first.rows.iter().enumerate().map(of).collect()
-}
-
-/// Of the line through points that is best by least squares.
-fn slope(points: impl Iterator<Item = (f64, f64)> + Clone) -> f64 {
-    let n = points.clone().count() as f64;
-    let (sum_x, sum_y) = points.clone().fold((0.0, 0.0), |(sx, sy), (x, y)| (sx + x, sy + y));
-    let (mean_x, mean_y) = (sum_x / n, sum_y / n);
-    let (xy, xx) = points.fold((0.0, 0.0), |(xy, xx), (x, y)| {
-        (xy + (x - mean_x) * (y - mean_y), xx + (x - mean_x) * (x - mean_x))
-    });
-    xy / xx
 }

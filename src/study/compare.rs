@@ -4,7 +4,7 @@ use super::contender::{self, Contender, Kind, Pools, build_options};
 use super::machine::Machine;
 use super::rays::{RaySet, Sphere};
 use super::record::{Recording, rays_of_paths};
-use super::rounds::Spread;
+use super::rounds::{Nobody, Spread};
 use super::table::Figure;
 use super::tally::{Tally, against_brute_force, tally};
 use super::triangles;
@@ -13,7 +13,7 @@ use crate::accel::bvh::Bvh;
 use crate::accel::{Isa, Precision};
 use crate::error::Result;
 use crate::math::Rgb;
-use crate::render::{AccelKind, Progress, Settings, Watch, render};
+use crate::render::{AccelKind, Settings, render};
 use crate::scene::desc::CameraDesc;
 use crate::world::World;
 
@@ -165,16 +165,6 @@ fn tallies(world: &World, sets: &[RaySet], contenders: &[Contender<'_>], worst: 
 
 /// Samples per pixel of the compared pictures.
 const PICTURE_SAMPLES: u64 = 4;
-
-struct Nobody;
-
-impl Watch for Nobody {
-    fn progress(&self, _: &Progress) {}
-
-    fn cancelled(&self) -> bool {
-        false
-    }
-}
 
 fn pictures(world: &World, camera: &CameraDesc, options: &Options) -> Result<PictureDifference> {
     let Recording { width, height, bounces, seed, .. } = options.recording;

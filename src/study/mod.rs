@@ -2,10 +2,14 @@
 //!
 //! - [`compare`]: both accelerators on the same rays of one scene, hits compared bit by bit.
 //! - [`bench`](mod@bench): both accelerators at all precisions on meshes of growing size.
+//! - [`scaling`]: how the cost of a sample grows with threads, pixels, triangles and lights.
+//! - [`tradeoff`]: what every knob of a render costs in time and gains in accuracy.
 //!
-//! Both stand on the same parts: [`meshes`] to measure on, [`rays`] to measure with (from a [`view`] of a mesh, or
+//! They stand on the same parts: [`meshes`] to measure on, [`rays`] to measure with (from a [`view`] of a mesh, or
 //! recorded from real paths, [`record`]), [`contender`]s that are timed in interleaved rounds ([`rounds`]), a
-//! [`verdict`] on two answers that differ and their [`tally`], a count of [`leaks`]. What comes out is data; [`table`] and [`plot`] show it.
+//! [`verdict`] on two answers that differ and their [`tally`], a count of [`leaks`]
+//! (at the [`seams`] of any mesh), [`metrics`] of pictures, [`statistics`]. What comes out is data; [`table`] and [`plot`]
+//! show it.
 
 pub mod bench;
 pub mod compare;
@@ -13,12 +17,17 @@ pub mod contender;
 pub mod leaks;
 pub mod machine;
 pub mod meshes;
+pub mod metrics;
 pub mod plot;
 pub mod rays;
 pub mod record;
 pub mod rounds;
+pub mod scaling;
+pub mod seams;
+pub mod statistics;
 pub mod table;
 pub mod tally;
+pub mod tradeoff;
 pub mod verdict;
 pub mod view;
 

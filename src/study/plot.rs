@@ -3,6 +3,8 @@
 //! One panel a mesh, all on the same axes, both logarithmic. The font comes with the program: a plot needs none of the
 //! system's.
 
+mod axis;
+pub mod chart;
 mod log_axis;
 
 use self::log_axis::LogAxis;
@@ -236,7 +238,7 @@ impl<C, DB: DrawingBackend> Drawable<DB> for Mark<C> {
 }
 
 /// Warm for Embree, cold for native; the faster the lighter.
-fn color_of(kind: Kind) -> RGBColor {
+pub(super) fn color_of(kind: Kind) -> RGBColor {
     match (kind.accel, kind.precision) {
         (AccelKind::Embree, Precision::Exact) => RGBColor(146, 43, 0),
         (AccelKind::Embree, Precision::Robust) => RGBColor(222, 93, 20),

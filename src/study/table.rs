@@ -20,6 +20,11 @@ impl Table {
     pub fn push<S: Into<String>>(&mut self, cells: impl IntoIterator<Item = S>) {
         self.rows.push(cells.into_iter().map(Into::into).collect());
     }
+
+    /// All rows, the headings first.
+    pub fn rows(&self) -> &[Vec<String>] {
+        &self.rows
+    }
 }
 
 impl fmt::Display for Table {
@@ -91,7 +96,8 @@ pub fn csv(figures: &[Figure]) -> String {
     text
 }
 
-fn quoted(text: &str) -> String {
+/// A cell of CSV.
+pub(super) fn quoted(text: &str) -> String {
     if text.contains([',', '"', '\n', '\r']) {
         format!("\"{}\"", text.replace('"', "\"\""))
     } else {

@@ -102,3 +102,16 @@ fn options_for_generated_meshes_do_not_go_with_a_file() {
 fn an_unknown_plot_is_refused_before_the_work() {
     Folder::new().run("bench --plot a.pdf").fails(2, "known are .svg, .png");
 }
+
+#[test]
+fn scaling_tells_how_the_cost_of_a_sample_grows() {
+    let folder = Folder::new();
+    let ended = folder.run("bench --scaling --quick --rounds 2 --threads 2 --quiet --plot a.svg --csv a.csv");
+    ended.succeeds();
+    for line in ["2 threads are ", "a sample costs triangles ^ ", "a sample costs shining balls ^ "] {
+        assert!(ended.stdout.lines().any(|other| other.starts_with(line)), "{line} in {}", ended.stdout);
+    }
+    assert_eq!(folder.names(), ["a.csv", "a.svg", "ball.yaml"]);
+    folder.run("bench --scaling --mesh cube").fails(2, "cannot be used with");
+    folder.run("bench --scaling ball.yaml").fails(2, "cannot be used with");
+}

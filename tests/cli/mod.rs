@@ -7,6 +7,7 @@ mod information;
 mod interrupt;
 mod json;
 mod pictures;
+mod tradeoff;
 mod usage;
 
 use std::fs;

@@ -6,6 +6,7 @@ use crate::error::Error;
 use crate::render::MAX_THREADS;
 use crate::study::bench::Options;
 use crate::study::meshes::Family;
+use crate::study::scaling;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use std::path::{Path, PathBuf};
 
@@ -48,6 +49,9 @@ pub(in crate::cli) struct BenchArguments {
     /// Rays of a kind that look for leaks [default: 500k]
     #[arg(long, value_name = "N", allow_negative_numbers = true, requires = "leaks", value_parser = amount(100_000_000))]
     leak_rays: Option<u64>,
+    /// Measure instead how the cost of a sample grows with threads, pixels, triangles and lights, in whole renders
+    #[arg(long, conflicts_with_all = ["file", "triangles", "mesh", "rays", "leaks"])]
+    scaling: bool,
     /// A glance within seconds: 1k..10k triangles, few rays, 2 rounds
     #[arg(long)]
     quick: bool,
@@ -74,6 +78,8 @@ pub(in crate::cli) enum Subject {
     Mesh(PathBuf),
     /// A scene file.
     Scene(PathBuf),
+    /// How the cost of a sample grows.
+    Scaling(scaling::Options),
 }
 
 /// A bench as it was meant.
@@ -100,6 +106,13 @@ impl BenchArguments {
             rounds: or(self.rounds, 2, 5)?,
             seed: self.seed,
             leak_rays: if self.leaks { or(self.leak_rays, 10_000, 500_000)? } else { 0 },
+        };
+        let subject = if self.scaling {
+            let Options { isa, threads, rounds, seed, .. } = options;
+            let rounds = rounds.max(2);
+            Subject::Scaling(scaling::Options { isa, threads, rounds, seed, quick: self.quick })
+        } else {
+            subject
         };
         let BenchArguments { csv, plot: plots, json, quiet, .. } = self;
         Ok(BenchJob { subject, options, csv, plots, json, quiet })
