@@ -15,9 +15,10 @@ pub struct Counters {
     /// did not go into it (into a body it meets the far side, however near), or on another one no farther from the
     /// ray's origin than that was moved off its surface (the error bound of the point). Shadow rays don't know theirs.
     pub self_hits: u64,
-    /// Paths that met a surface with their last segment and would have gone on.
+    /// Paths, or branches of them, that met a surface with their last segment and would have gone on.
     pub cut_paths: u64,
-    /// Throughput (mean of the components, 1 at the camera) with which the cut paths arrived at that surface.
+    /// Throughput (mean of the components, 1 at the camera, a branch's part of it) with which the cut paths arrived at that
+    /// surface.
     pub cut_throughput: FixedSum,
     /// Samples that were far brighter than those before them in their pixel and chunk; see
     /// [`FIREFLY`](crate::render::FIREFLY).
