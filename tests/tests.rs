@@ -61,7 +61,7 @@ mod errors;
 /// What is counted about the samples: fireflies, the limit and what it takes.
 mod counters;
 
-/// Measuring the accelerators: rays, meshes, verdicts, tables, plots.
+/// Measuring: accelerators, rays, meshes, errors of pictures, trade-offs, growth; tables, plots, pages.
 mod study;
 
 /// The program from outside.

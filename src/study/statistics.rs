@@ -149,7 +149,7 @@ fn normal_tail(z: f64) -> f64 {
     0.5 * libm::erfc(z * std::f64::consts::FRAC_1_SQRT_2)
 }
 
-/// Student's quantile of 97.5 %, by Newton's method on [`student_tail`].
+/// Student's quantile of 97.5 %, by Newton's method on its tail.
 pub fn student_quantile(degrees: usize) -> f64 {
     let wanted = 0.5 * (1.0 - CONFIDENCE);
     // The tail falls and is convex above 0, so steps from the left never overshoot.

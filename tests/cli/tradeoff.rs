@@ -13,8 +13,8 @@ fn a_table_ends_with_a_recommendation() {
     let ended = Folder::new().run(&format!("tradeoff ball.yaml {SMALL}"));
     ended.succeeds();
     assert_eq!(ended.stderr, "");
-    // A scene without meshes or lights: the default, the other sampler, the shorter paths.
-    for label in ["default ", "independent ", "2 bounces "] {
+    // A scene under a sky that is sampled, without meshes.
+    for label in ["default ", "independent ", "lights off ", "2 bounces "] {
         assert_eq!(
             ended.stdout.lines().filter(|line| line.starts_with(label)).count(),
             3,
@@ -22,7 +22,7 @@ fn a_table_ends_with_a_recommendation() {
             ended.stdout
         );
     }
-    for label in ["fast", "lights off", "rays, 1 thread"] {
+    for label in ["fast", "robust", "rays, 1 thread"] {
         assert!(!ended.stdout.contains(label), "{label} in {}", ended.stdout);
     }
     let last = ended.stdout.lines().last().expect("a line");
@@ -42,9 +42,9 @@ fn json_and_csv_hold_the_same_figures() {
     let csv = String::from_utf8(folder.read("a.csv")).expect("UTF-8");
     assert_eq!(csv.lines().count(), figures.len() + 1);
     assert!(csv.lines().all(|line| line.split(',').count() == 13));
-    // Three variants with two numbers of samples each.
+    // Four variants with two numbers of samples each.
     for measure in ["seconds", "mse", "rel_mse", "trimmed_rel_mse", "flip", "relative_efficiency"] {
-        assert_eq!(figures.iter().filter(|figure| figure["measure"] == measure).count(), 6, "{measure}");
+        assert_eq!(figures.iter().filter(|figure| figure["measure"] == measure).count(), 8, "{measure}");
     }
     let last = events.last().expect("an event");
     assert_eq!(last["event"], "done");
@@ -132,7 +132,7 @@ fn a_report_opens_in_a_browser() {
     };
     let page = String::from_utf8(browse(&chromium, &folder, "--dump-dom").stdout).expect("UTF-8");
     // The script has filled both lists and shown a picture on each side.
-    assert_eq!(page.matches("<option").count(), 2 * (3 * 2 + 1), "{page}");
+    assert_eq!(page.matches("<option").count(), 2 * (4 * 2 + 1), "{page}");
     assert_eq!(page.matches("<img alt=\"").count(), 2);
     assert!(page.contains("alt=\"default, 2 samples\""), "{page}");
     assert!(page.contains("alt=\"the mean of all that are right\""));

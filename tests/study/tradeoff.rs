@@ -6,6 +6,7 @@ use pathtracer::math::DVec3;
 use pathtracer::render::AccelKind;
 use pathtracer::sampling::SamplerKind;
 use pathtracer::scene::desc::SceneDesc;
+use pathtracer::study::statistics::Estimate;
 use pathtracer::study::tradeoff::figures::csv;
 use pathtracer::study::tradeoff::grid::{Frame, Grid};
 use pathtracer::study::tradeoff::plan::{Curve, Plan};
@@ -118,23 +119,30 @@ fn the_bias_of_cut_paths_is_what_they_would_have_brought() {
     let (whole, cut) = (1.0 - rho.powi(20), 1.0 - rho.powi(2));
     let row = found.rows.last().expect("a row");
     assert_eq!(row.configuration.variant, 1);
-    // The furnace has no noise; pictures are f32.
-    let bias = row.bias.expect("a bias").value;
-    assert!((bias - (cut / whole - 1.0)).abs() < 1e-6, "{bias}");
+    // The paths cut at 2 segments have no noise, the whole ones that of Russian roulette; pictures are f32.
+    let near = |what: &str, estimate: Estimate, expected: f64| {
+        let allowed = 4.0 * estimate.standard_error + 1e-6;
+        assert!(
+            (estimate.value - expected).abs() < allowed && allowed < 0.02,
+            "{what}: {estimate:?}, {expected}"
+        );
+    };
+    near("bias", row.bias.expect("a bias"), cut / whole - 1.0);
     let square = (cut - whole).powi(2);
-    assert!((row.mse.value - square).abs() < 1e-6, "{:?}", row.mse);
-    assert!((row.rel_mse.value - square / (whole * whole + 0.01)).abs() < 1e-6, "{:?}", row.rel_mse);
-    assert!((row.trimmed.value - row.rel_mse.value).abs() < 1e-6, "{:?}", row.trimmed);
+    near("mse", row.mse, square);
+    near("relMSE", row.rel_mse, square / (whole * whole + 0.01));
+    // One pixel of 192 is left out.
+    assert!((0.9..=1.0).contains(&(row.trimmed.value / row.rel_mse.value)), "{:?}", row.trimmed);
     assert!(found.rows[2].bias.is_none());
 }
 
 #[test]
 fn settings_that_can_not_reach_the_error_are_not_recommended() {
     let grid = Grid { bounces: vec![20, 1], light_sampling: vec![false], ..grid() };
-    let found = run(&furnace(0.5), &Options { target: 0.001, ..options(grid) });
+    let found = run(&furnace(0.5), &Options { target: 0.05, ..options(grid) });
     let chosen = found.recommendation.as_ref().expect("a recommendation");
     assert_eq!(found.variants[chosen.variant].bounces, 20);
-    assert!(found.recommendation_line().starts_with("for relMSE 0.001: native exact"));
+    assert!(found.recommendation_line().starts_with("for relMSE 0.05: native exact"));
     assert!(found.recommended_command().expect("a command").starts_with("pathtracer scene 16 12 1 20 IMAGE"));
 }
 

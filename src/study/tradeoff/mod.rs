@@ -1,6 +1,6 @@
 //! What every knob of a render costs in time and gains in accuracy.
 //!
-//! Every configuration of a [`grid`] is rendered with several seeds ([`shots`]) by the same function as the command line's
+//! Every configuration of a [`grid`] is rendered with several seeds by the same function as the command line's
 //! renders. The errors need no reference: they are the variance across the seeds and, where paths or samples are cut
 //! short, the square of the bias against those that are not. From the numbers of every seed come estimates with
 //! intervals, ratios to the default, the Pareto front and the convergence ([`Row`], [`Convergence`]), and the
