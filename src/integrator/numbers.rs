@@ -29,10 +29,13 @@ impl<'s, S: Sampler> Numbers<'s, S> {
         Numbers { sampler, pixel: sampler.pixel(x, y), index }
     }
 
-    /// Those of one of several paths that go on from the same start.
+    /// Those of one of several paths that go on from the same start. A scramble, which the upper half of an index names,
+    /// stays the same.
     #[inline]
     pub(super) fn branch(&self, branch: u32, branches: u32) -> Numbers<'s, S> {
-        Numbers { index: self.index * u64::from(branches) + u64::from(branch), ..*self }
+        let scramble = self.index & !u64::from(u32::MAX);
+        let point = self.index & u64::from(u32::MAX);
+        Numbers { index: scramble | (point * u64::from(branches) + u64::from(branch)), ..*self }
     }
 
     /// A point of the pixel.
