@@ -22,6 +22,7 @@ fn grid() -> Grid {
         samplers: vec![SamplerKind::Independent],
         light_sampling: vec![true],
         clamps: vec![None],
+        noises: vec![None],
         crossed: false,
     }
 }

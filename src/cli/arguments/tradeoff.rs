@@ -51,6 +51,9 @@ pub(in crate::cli) struct TradeoffArguments {
     /// Limits of the components of a sample, beside none [default: none]
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = positive)]
     clamp: Vec<f64>,
+    /// Errors at which blocks of pixels stop, beside none; the samples are then the most of a pixel [default: 0.1]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = positive)]
+    noise: Vec<f64>,
     /// Try all combinations of settings instead of one at a time
     #[arg(long)]
     all: bool,
@@ -135,6 +138,7 @@ impl TradeoffArguments {
         }
         bounces.sort_unstable_by(|a, b| b.cmp(a));
         bounces.dedup();
+        let noise = if self.noise.is_empty() { vec![0.1] } else { distinct(&self.noise) };
         let grid = Grid {
             samples,
             bounces,
@@ -143,6 +147,7 @@ impl TradeoffArguments {
             samplers: distinct(&self.sampler),
             light_sampling: distinct(&self.light_sampling),
             clamps: std::iter::once(None).chain(distinct(&self.clamp).into_iter().map(Some)).collect(),
+            noises: std::iter::once(None).chain(noise.into_iter().map(Some)).collect(),
             crossed: self.all,
         };
         Ok(TradeoffJob {

@@ -21,6 +21,8 @@ pub struct Variant {
     pub light_sampling: bool,
     /// The most that a component of a sample may be.
     pub clamp: Option<f64>,
+    /// The error at which blocks of pixels stop; then the number of samples is the most of a pixel.
+    pub noise: Option<f64>,
 }
 
 /// A variant as tables, CSV and JSON name it.
@@ -38,6 +40,8 @@ pub struct VariantRecord {
     pub bounces: u32,
     /// The limit of samples, or null.
     pub clamp: Option<f64>,
+    /// The error at which blocks of pixels stop, or null.
+    pub noise: Option<f64>,
 }
 
 impl Variant {
@@ -49,6 +53,7 @@ impl Variant {
             sampler: self.sampler,
             light_sampling: self.light_sampling,
             clamp: self.clamp,
+            noise: self.noise,
             isa: frame.isa,
             threads: Some(frame.threads),
             seed,
@@ -66,6 +71,7 @@ impl Variant {
             light_sampling: self.light_sampling,
             bounces: self.bounces,
             clamp: self.clamp,
+            noise: self.noise,
         }
     }
 
@@ -74,7 +80,8 @@ impl Variant {
         let VariantRecord { accelerator, precision, sampler, bounces, .. } = self.record();
         let lights = if self.light_sampling { "on" } else { "off" };
         let clamp = self.clamp.map(|limit| format!(", clamp {limit}")).unwrap_or_default();
-        format!("{accelerator} {precision}, {sampler}, light sampling {lights}, {bounces} bounces{clamp}")
+        let noise = self.noise.map(|target| format!(", noise {target}")).unwrap_or_default();
+        format!("{accelerator} {precision}, {sampler}, light sampling {lights}, {bounces} bounces{clamp}{noise}")
     }
 
     /// What is not as in `base`, in words; of the base itself "default".
@@ -95,6 +102,8 @@ impl Variant {
         add(own.bounces != other.bounces, format!("{} bounce{plural}", own.bounces));
         let clamp = own.clamp.map_or("no clamp".to_owned(), |limit| format!("clamp {limit}"));
         add(own.clamp != other.clamp, clamp);
+        let noise = own.noise.map_or("fixed samples".to_owned(), |target| format!("noise {target}"));
+        add(own.noise != other.noise, noise);
         if words.is_empty() { "default".into() } else { words.join(", ") }
     }
 
@@ -113,6 +122,7 @@ impl Variant {
         let lights = if self.light_sampling { "on" } else { "off" };
         add(self.light_sampling != plain.light_sampling, "light-sampling", lights);
         add(self.clamp.is_some(), "clamp", &self.clamp.unwrap_or(0.0).to_string());
+        add(self.noise.is_some(), "noise", &self.noise.unwrap_or(0.0).to_string());
         options
     }
 }
@@ -147,6 +157,8 @@ pub struct Grid {
     pub light_sampling: Vec<bool>,
     /// Limits of samples; the first is none, whose mean is taken for the truth.
     pub clamps: Vec<Option<f64>>,
+    /// Errors at which blocks stop; the first is none, with all samples everywhere.
+    pub noises: Vec<Option<f64>>,
     /// Whether all combinations are tried; else one knob at a time is turned away from its default.
     pub crossed: bool,
 }
@@ -161,6 +173,7 @@ impl Grid {
             sampler: self.samplers[0],
             light_sampling: self.light_sampling[0],
             clamp: self.clamps[0],
+            noise: self.noises[0],
         }];
         self.turn(&mut all, &self.accels, |variant, value| variant.accel = value);
         self.turn(&mut all, &self.precisions, |variant, value| variant.precision = value);
@@ -168,6 +181,7 @@ impl Grid {
         self.turn(&mut all, &self.light_sampling, |variant, value| variant.light_sampling = value);
         self.turn(&mut all, &self.bounces, |variant, value| variant.bounces = value);
         self.turn(&mut all, &self.clamps, |variant, value| variant.clamp = value);
+        self.turn(&mut all, &self.noises, |variant, value| variant.noise = value);
         all
     }
 
@@ -182,8 +196,8 @@ impl Grid {
         }
     }
 
-    /// The variant with the same settings whose mean is the truth: with the longest paths and without a limit.
+    /// The variant with the same settings whose mean is the truth: with the longest paths, without a limit and with all samples.
     pub(super) fn truth_of(&self, variant: &Variant) -> Variant {
-        Variant { bounces: self.bounces[0], clamp: self.clamps[0], ..*variant }
+        Variant { bounces: self.bounces[0], clamp: self.clamps[0], noise: self.noises[0], ..*variant }
     }
 }
