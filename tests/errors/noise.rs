@@ -131,7 +131,8 @@ fn stopping_does_not_bias_a_plain_picture() {
 
 #[test]
 fn stopping_does_not_bias_a_picture_of_fireflies() {
-    assert_unbiased(0.5, fireflies);
+    // Some 270 samples a pixel, of which three are fireflies.
+    assert_unbiased(0.3, fireflies);
 }
 
 #[test]
