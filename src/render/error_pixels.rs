@@ -56,7 +56,7 @@ impl ErrorPixels {
             let area = (right - left) * (bottom - top);
             // The high half of the product is uniform below `area`.
             let hash = stream(settings.seed, row * columns + column) as u128;
-            let chosen = (hash * u128::from(area) >> 64) as u64;
+            let chosen = ((hash * u128::from(area)) >> 64) as u64;
             let (x, y) = (left + chosen % (right - left), top + chosen / (right - left));
             ErrorPixel {
                 x: x as u32,

@@ -113,7 +113,7 @@ where
     S: Fn(u32, u32, u64, &mut Counters) -> Rgb + Sync,
 {
     let (mut adaptive, mut fixed) = (Moments::default(), Moments::default());
-    for seed in 0..120 {
+    for seed in 0..60 {
         let rendered = render(&settings(noise, 0), sample(seed));
         assert!(rendered.film.samples() > NOISE_AFTER, "no block went on");
         adaptive.add(mean(&rendered));
@@ -131,7 +131,8 @@ fn stopping_does_not_bias_a_plain_picture() {
 
 #[test]
 fn stopping_does_not_bias_a_picture_of_fireflies() {
-    assert_unbiased(0.5, fireflies);
+    // Some 600 samples a pixel, of which six are fireflies.
+    assert_unbiased(0.2, fireflies);
 }
 
 #[test]
