@@ -74,7 +74,7 @@ pub(crate) trait Doubles: Copy {
 /// Four numbers side by side.
 pub(crate) trait FourDoubles: Doubles {
     /// Four numbers from memory.
-    fn from_memory(self, lanes: &[f64; 4]) -> Self::Double;
+    fn read(self, lanes: &[f64; 4]) -> Self::Double;
 
     /// Four numbers to memory.
     fn to_memory(self, a: Self::Double) -> [f64; 4];

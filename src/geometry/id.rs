@@ -18,11 +18,13 @@ impl PrimitiveId {
     const SOLID: u32 = 1 << 31;
 
     /// A triangle of a space in world coordinates; the index of the space is below 2^31.
+    #[inline]
     pub fn triangle(space: u32, triangle: u32) -> PrimitiveId {
         PrimitiveId { body: space, triangle }
     }
 
     /// The solid with this index; below 2^31 - 1.
+    #[inline]
     pub fn solid(index: u32) -> PrimitiveId {
         PrimitiveId { body: index | Self::SOLID, triangle: Self::NO_TRIANGLE }
     }
@@ -33,16 +35,19 @@ impl PrimitiveId {
     }
 
     /// The index of the solid, if this is one or a part of one.
+    #[inline]
     pub fn as_solid(self) -> Option<u32> {
         (self.body & Self::SOLID != 0 && self != Self::NONE).then_some(self.body & !Self::SOLID)
     }
 
     /// The index of the triangle in its space, if this is one, of an instance or not.
+    #[inline]
     pub fn as_triangle(self) -> Option<u32> {
         (self.triangle != Self::NO_TRIANGLE).then_some(self.triangle)
     }
 
     /// The space of a triangle in world coordinates.
+    #[inline]
     pub fn space(self) -> Option<u32> {
         (self.body & Self::SOLID == 0).then_some(self.body)
     }

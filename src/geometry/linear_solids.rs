@@ -64,7 +64,7 @@ impl<const N: usize> Four<N> {
     /// A number.
     #[inline(always)]
     fn number<L: FourDoubles>(&self, lanes: L, index: usize) -> L::Double {
-        lanes.from_memory(&self.numbers[index])
+        lanes.read(&self.numbers[index])
     }
 }
 
@@ -113,7 +113,7 @@ impl Four<4> {
         let zero = lanes.same(0.0);
         let t = lanes.choose(lanes.is_less(zero, near), near, far);
         let t = lanes.choose(meets, t, zero);
-        Hits { t, solids: lanes.from_memory(&self.solids), doubt: zero }
+        Hits { t, solids: lanes.read(&self.solids), doubt: zero }
     }
 }
 
@@ -127,7 +127,7 @@ impl Four<15> {
         let zero = lanes.same(0.0);
         let t = lanes.choose(lanes.is_less(zero, enter), enter, leave);
         let t = lanes.choose(lanes.is_at_most(enter, leave), t, zero);
-        Hits { t, solids: lanes.from_memory(&self.solids), doubt: zero }
+        Hits { t, solids: lanes.read(&self.solids), doubt: zero }
     }
 }
 
@@ -147,7 +147,7 @@ impl Four<14> {
         // NaN is in doubt.
         let t = lanes.choose(lanes.is_less(clearance.misses, zero), zero, t);
         let doubt = lanes.choose(lanes.is_less(zero, clearance.hits), zero, lanes.same(0.5));
-        Hits { t, solids: lanes.from_memory(&self.solids), doubt }
+        Hits { t, solids: lanes.read(&self.solids), doubt }
     }
 }
 

@@ -44,9 +44,9 @@ pub(crate) use linear_solids::{LinearSolids, Nearest};
 pub use mesh_space::{MeshEntry, MeshPart, MeshSpace};
 pub use rectangle::Rectangle;
 pub use scene::{Geometry, Shape, Solid};
-pub(crate) use shear::ShearedRay;
+pub(crate) use shear::{LazyShear, ShearedRay};
 pub use surface::SurfacePoint;
-pub(crate) use triangle::{Seen, any_in_lanes, closest_in_lanes};
+pub(crate) use triangle::{Seen, any_in_lanes, closest_in_lanes, sheared_plane_hit};
 pub use triangle::{
     TriangleBlock, TriangleHit, any_in_block, closest_in_block, intersect_triangle, plane_hit,
 };
@@ -80,6 +80,7 @@ impl Ray {
     }
 
     /// Whether all numbers are finite; other rays hit nothing.
+    #[inline]
     pub fn is_finite(&self) -> bool {
         self.origin.is_finite() && self.direction.is_finite()
     }
@@ -106,6 +107,7 @@ pub struct Hit {
 
 impl Hit {
     /// Whether this one comes before `other` by the key (t, object, part).
+    #[inline]
     pub fn before(&self, other: &Hit) -> bool {
         (self.t, self.object, self.part) < (other.t, other.object, other.part)
     }

@@ -15,8 +15,6 @@ pub struct Rectangle {
     pub edge_v: DVec3,
     /// Unit normal of the front.
     pub normal: DVec3,
-    /// Lower left, lower right, upper right, upper left.
-    corners: [DVec3; 4],
     /// Sum of the edges' lengths.
     pub(super) reach: f64,
     /// The edges over the squares of their lengths.
@@ -115,12 +113,6 @@ impl Rectangle {
     /// The rectangle with these half edges; `half_u` and `half_v` are at right angles, `half_u` to the right seen
     /// from the front.
     pub fn new(center: DVec3, half_u: DVec3, half_v: DVec3) -> Rectangle {
-        let corners = [
-            center - half_u - half_v,
-            center + half_u - half_v,
-            center + half_u + half_v,
-            center - half_u + half_v,
-        ];
         // Normalised first: the lengths may be as small as the square root of the smallest number.
         let normal = half_u.normalize().cross(half_v.normalize()).normalize();
         let (edge_u, edge_v) = (half_u * 2.0, half_v * 2.0);
@@ -134,7 +126,6 @@ impl Rectangle {
             edge_u,
             edge_v,
             normal,
-            corners,
             reach,
             along_u: edge_u / edge_u.length_squared(),
             along_v: edge_v / edge_v.length_squared(),
@@ -185,11 +176,21 @@ impl Rectangle {
         }
     }
 
+    /// Lower left, lower right, upper right, upper left.
+    fn corners(&self) -> [DVec3; 4] {
+        let (half_u, half_v) = (self.edge_u * 0.5, self.edge_v * 0.5);
+        [
+            self.center - half_u - half_v,
+            self.center + half_u - half_v,
+            self.center + half_u + half_v,
+            self.center - half_u + half_v,
+        ]
+    }
+
     /// The part that is hit, by exact signs, of a ray that meets the plane.
     fn part_hit(&self, origin: DVec3, direction: DVec3) -> Option<u32> {
         let shear = Shear::onto_largest_axis(direction);
-        let seen = |corner: usize| shear.project(self.corners[corner] - origin);
-        let (a, b, c, d) = (seen(0), seen(1), seen(2), seen(3));
+        let [a, b, c, d] = self.corners().map(|corner| shear.project(corner - origin));
         let (ab, bc, cd, da) = (signed_area(a, b), signed_area(b, c), signed_area(c, d), signed_area(d, a));
         let ca = signed_area(c, a);
         if same_sign(ab, bc, ca) {
@@ -213,7 +214,7 @@ impl Rectangle {
 
     /// The box around it.
     pub fn bounds(&self) -> Bounds {
-        self.corners.iter().fold(Bounds::EMPTY, |bounds, &corner| bounds.with_point(corner))
+        self.corners().into_iter().fold(Bounds::EMPTY, Bounds::with_point)
     }
 }
 

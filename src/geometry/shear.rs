@@ -95,18 +95,6 @@ impl<'r> ShearedRay<'r> {
         }
     }
 
-    /// The ray itself.
-    #[inline(always)]
-    pub(crate) fn local(&self) -> &'r LocalRay {
-        self.ray
-    }
-
-    /// The end of the ray for an f32 kernel: rounded up.
-    #[inline(always)]
-    pub(crate) fn t_max32(&self) -> f32 {
-        self.ray.t_max32()
-    }
-
     /// The axes in the order of the components; each is below three.
     #[inline(always)]
     pub(super) fn order(&self) -> [usize; 3] {
@@ -134,6 +122,33 @@ impl<'r> ShearedRay<'r> {
         let [a, b, c] = corners;
         let (a, b, c) = (self.project(a), self.project(b), self.project(c));
         [signed_area(b, c), signed_area(c, a), signed_area(a, b)]
+    }
+}
+
+/// A local ray whose shear is found when it is first asked for: many rays reach no triangle.
+pub(crate) struct LazyShear<'r> {
+    ray: &'r LocalRay,
+    sheared: Option<ShearedRay<'r>>,
+}
+
+impl<'r> LazyShear<'r> {
+    /// Nothing is computed yet.
+    #[inline(always)]
+    pub(crate) fn new(ray: &'r LocalRay) -> LazyShear<'r> {
+        LazyShear { ray, sheared: None }
+    }
+
+    /// The ray itself.
+    #[inline(always)]
+    pub(crate) fn local(&self) -> &'r LocalRay {
+        self.ray
+    }
+
+    /// The ray with its shear.
+    #[inline(always)]
+    pub(crate) fn get(&mut self) -> &ShearedRay<'r> {
+        let ray = self.ray;
+        self.sheared.get_or_insert_with(|| ShearedRay::new(ray))
     }
 }
 

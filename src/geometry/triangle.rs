@@ -77,11 +77,17 @@ fn crossing(ray: &ShearedRay, corners: [[f64; 3]; 3]) -> Option<Crossing> {
 /// triangle; where [`intersect_triangle`] finds a hit, the same bits. `None` for triangles without area and for
 /// rays in the triangle's plane.
 pub fn plane_hit(ray: &LocalRay, corners: [DVec3; 3]) -> Option<(f64, f64, f64)> {
-    let sheared = ShearedRay::new(ray);
+    sheared_plane_hit(&ShearedRay::new(ray), corners)
+}
+
+/// [`plane_hit`] of a ray with its shear.
+#[inline(always)]
+pub(crate) fn sheared_plane_hit(sheared: &ShearedRay, corners: [DVec3; 3]) -> Option<(f64, f64, f64)> {
+    let ray = sheared.ray;
     let rotated = corners.map(|corner| sheared.rotate(corner));
     let edges = sheared.edges(rotated);
     let sum = edges[0] + edges[1] + edges[2];
-    let t = plane_distance(&sheared, rotated)?;
+    let t = plane_distance(sheared, rotated)?;
     if sum == 0.0 {
         return None;
     }

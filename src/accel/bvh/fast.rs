@@ -1,12 +1,14 @@
 //! The f32 leaf of [`crate::accel::Precision::Fast`]: eight triangles at once, no second look in f64.
 
 use super::traverse::Leaf;
-use crate::geometry::{Lanes, Seen, ShearedRay, TriangleBlock, TriangleHit, plane_hit};
+use crate::geometry::{
+    Lanes, LazyShear, LocalRay, Seen, ShearedRay, TriangleBlock, TriangleHit, sheared_plane_hit,
+};
 
 /// Blocks decided in f32. Rays may slip through edges; neighbours do not agree on them.
 pub(super) struct FastTriangles<'t> {
     pub(super) blocks: &'t [TriangleBlock],
-    ray: &'t ShearedRay<'t>,
+    ray: LazyShear<'t>,
     /// Distance of the best hit, or the end of the ray.
     t: f32,
     best: Option<Winner>,
@@ -22,15 +24,15 @@ struct Winner {
 
 impl<'t> FastTriangles<'t> {
     #[inline(always)]
-    pub(super) fn new(blocks: &'t [TriangleBlock], ray: &'t ShearedRay<'t>) -> FastTriangles<'t> {
-        FastTriangles { blocks, ray, t: ray.t_max32(), best: None }
+    pub(super) fn new(blocks: &'t [TriangleBlock], ray: &'t LocalRay) -> FastTriangles<'t> {
+        FastTriangles { blocks, ray: LazyShear::new(ray), t: ray.t_max32(), best: None }
     }
 
     /// The best hit, its t, u and v computed in f64.
-    pub(super) fn hit(&self) -> Option<TriangleHit> {
+    pub(super) fn hit(&mut self) -> Option<TriangleHit> {
         let Winner { index, leaf, lane } = self.best?;
         let corners = self.blocks[leaf as usize].corners_of(lane);
-        let (t, u, v) = plane_hit(self.ray.local(), corners)?;
+        let (t, u, v) = sheared_plane_hit(self.ray.get(), corners)?;
         Some(TriangleHit { t, index, u, v })
     }
 }
@@ -44,7 +46,7 @@ impl Leaf for FastTriangles<'_> {
     #[inline(always)]
     fn closest<L: Lanes>(&mut self, leaf: u32, lanes: L) {
         let block = &self.blocks[leaf as usize];
-        let (mut mask, distances) = hits(block, self.ray, self.t, lanes);
+        let (mut mask, distances) = hits(block, self.ray.get(), self.t, lanes);
         while mask != 0 {
             let lane = mask.trailing_zeros() as usize & 7;
             mask &= mask - 1;
@@ -62,9 +64,9 @@ impl Leaf for FastTriangles<'_> {
     }
 
     #[inline(always)]
-    fn any<L: Lanes>(&self, leaf: u32, lanes: L) -> bool {
+    fn any<L: Lanes>(&mut self, leaf: u32, lanes: L) -> bool {
         let block = &self.blocks[leaf as usize];
-        let (mut mask, distances) = hits(block, self.ray, self.t, lanes);
+        let (mut mask, distances) = hits(block, self.ray.get(), self.t, lanes);
         while mask != 0 {
             let lane = mask.trailing_zeros() as usize & 7;
             mask &= mask - 1;

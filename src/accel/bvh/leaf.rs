@@ -4,7 +4,7 @@ use super::Bvh;
 use super::traverse::Leaf;
 use crate::accel::{any_in_solid, closest_in_solid};
 use crate::geometry::{
-    Hit, Lanes, LocalRay, PrimitiveId, Ray, ShearedRay, TriangleBlock, TriangleHit, any_in_lanes,
+    Hit, Lanes, LazyShear, LocalRay, PrimitiveId, Ray, TriangleBlock, TriangleHit, any_in_lanes,
     closest_in_lanes,
 };
 use crate::math::round_up;
@@ -12,16 +12,15 @@ use crate::math::round_up;
 /// Blocks decided by the shared leaf.
 pub(super) struct ExactTriangles<'t> {
     pub(super) blocks: &'t [TriangleBlock],
-    /// A reference: the traversal would hold a copy of all of it in registers that it does not have.
-    ray: &'t ShearedRay<'t>,
+    ray: LazyShear<'t>,
     pub(super) best: Option<TriangleHit>,
     limit: f32,
 }
 
 impl<'t> ExactTriangles<'t> {
     #[inline(always)]
-    pub(super) fn new(blocks: &'t [TriangleBlock], ray: &'t ShearedRay<'t>) -> ExactTriangles<'t> {
-        ExactTriangles { blocks, ray, best: None, limit: ray.t_max32() }
+    pub(super) fn new(blocks: &'t [TriangleBlock], ray: &'t LocalRay) -> ExactTriangles<'t> {
+        ExactTriangles { blocks, ray: LazyShear::new(ray), best: None, limit: ray.t_max32() }
     }
 }
 
@@ -33,7 +32,7 @@ impl Leaf for ExactTriangles<'_> {
 
     #[inline(always)]
     fn closest<L: Lanes>(&mut self, leaf: u32, lanes: L) {
-        if closest_in_lanes(&self.blocks[leaf as usize], self.ray, &mut self.best, lanes)
+        if closest_in_lanes(&self.blocks[leaf as usize], self.ray.get(), &mut self.best, lanes)
             && let Some(best) = &self.best
         {
             self.limit = round_up(best.t);
@@ -46,8 +45,8 @@ impl Leaf for ExactTriangles<'_> {
     }
 
     #[inline(always)]
-    fn any<L: Lanes>(&self, leaf: u32, lanes: L) -> bool {
-        any_in_lanes(&self.blocks[leaf as usize], self.ray, lanes)
+    fn any<L: Lanes>(&mut self, leaf: u32, lanes: L) -> bool {
+        any_in_lanes(&self.blocks[leaf as usize], self.ray.get(), lanes)
     }
 }
 
@@ -88,7 +87,7 @@ impl Leaf for Solids<'_> {
     }
 
     #[inline(always)]
-    fn any<L: Lanes>(&self, leaf: u32, _: L) -> bool {
+    fn any<L: Lanes>(&mut self, leaf: u32, _: L) -> bool {
         any_in_solid(self.kernel, self.order[leaf as usize], self.ray, self.t_max, self.target)
     }
 }

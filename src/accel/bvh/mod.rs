@@ -26,9 +26,7 @@ use self::split::PrimRef;
 use super::fault::Fault;
 use super::{BuildOptions, BvhQuality, Isa, Kernel, Precision, any_abreast, closest_abreast};
 use crate::error::Result;
-use crate::geometry::{
-    Geometry, Hit, LocalRay, MeshSpace, PrimitiveId, Ray, ShearedRay, TriangleBlock, TriangleHit,
-};
+use crate::geometry::{Geometry, Hit, LocalRay, MeshSpace, PrimitiveId, Ray, TriangleBlock, TriangleHit};
 use crate::math::{round_down, round_up};
 use crate::memory::advise_huge_pages;
 
@@ -200,7 +198,7 @@ impl Kernel for Bvh<'_> {
 
     #[inline(always)]
     fn closest_triangle(&self, space: u32, ray: &LocalRay) -> Option<TriangleHit> {
-        let (node_ray, ray) = (NodeRay::new(ray), &ShearedRay::new(ray));
+        let node_ray = NodeRay::new(ray);
         let TriangleTree { nodes, blocks } = &self.triangles[space as usize];
         if self.precision != Precision::Fast {
             let mut leaf = ExactTriangles::new(blocks, ray);
@@ -214,14 +212,14 @@ impl Kernel for Bvh<'_> {
 
     #[inline(always)]
     fn any_triangle(&self, space: u32, ray: &LocalRay) -> bool {
-        let (node_ray, ray) = (NodeRay::new(ray), &ShearedRay::new(ray));
+        let node_ray = NodeRay::new(ray);
         let TriangleTree { nodes, blocks } = &self.triangles[space as usize];
         if self.precision != Precision::Fast {
-            let leaf = ExactTriangles::new(blocks, ray);
-            return self.instructions.any(nodes, &node_ray, &leaf);
+            let mut leaf = ExactTriangles::new(blocks, ray);
+            return self.instructions.any(nodes, &node_ray, &mut leaf);
         }
-        let leaf = FastTriangles::new(blocks, ray);
-        self.instructions.any(nodes, &node_ray, &leaf)
+        let mut leaf = FastTriangles::new(blocks, ray);
+        self.instructions.any(nodes, &node_ray, &mut leaf)
     }
 
     fn closest_linear_solid(&self, ray: &Ray) -> Option<Hit> {
@@ -239,7 +237,7 @@ impl Kernel for Bvh<'_> {
     }
 
     fn any_solid(&self, ray: &Ray, local: &LocalRay, t_max: f64, target: PrimitiveId) -> bool {
-        let leaf = self.solids(ray, local, None, t_max, target);
-        self.instructions.any(&self.solid_nodes, &NodeRay::new(local), &leaf)
+        let mut leaf = self.solids(ray, local, None, t_max, target);
+        self.instructions.any(&self.solid_nodes, &NodeRay::new(local), &mut leaf)
     }
 }

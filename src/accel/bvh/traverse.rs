@@ -17,7 +17,7 @@ pub(super) trait Leaf {
     fn closest<L: Lanes>(&mut self, leaf: u32, lanes: L);
 
     /// Whether anything in a leaf is hit.
-    fn any<L: Lanes>(&self, leaf: u32, lanes: L) -> bool;
+    fn any<L: Lanes>(&mut self, leaf: u32, lanes: L) -> bool;
 
     /// Where a leaf is in memory.
     fn address(&self, leaf: u32) -> *const u8;
@@ -96,7 +96,7 @@ fn fetch<L: Leaf>(nodes: &[Node], leaf: &L, child: Child) {
 /// what is large, such as walls, and one of them ends the search before the clutter in front of it is looked at. The
 /// inner children follow the near ones first, since what is in the way is often near.
 #[inline(always)]
-pub(super) fn any<L: Leaf, S: NodeTest>(nodes: &[Node], ray: &NodeRay, leaf: &L, lanes: S) -> bool {
+pub(super) fn any<L: Leaf, S: NodeTest>(nodes: &[Node], ray: &NodeRay, leaf: &mut L, lanes: S) -> bool {
     let ray = lanes.prepare(ray);
     let mut stack = Stack::new();
     let limit = leaf.limit();

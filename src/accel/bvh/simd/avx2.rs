@@ -222,7 +222,7 @@ impl Doubles for Avx2 {
 
 impl FourDoubles for Avx2 {
     #[inline(always)]
-    fn from_memory(self, lanes: &[f64; 4]) -> __m256d {
+    fn read(self, lanes: &[f64; 4]) -> __m256d {
         // SAFETY: there is AVX2; there are four lanes.
         unsafe { _mm256_loadu_pd(lanes.as_ptr()) }
     }

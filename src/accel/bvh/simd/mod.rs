@@ -61,7 +61,7 @@ impl Instructions {
 
     /// [`traverse::any`] in these instructions.
     #[inline]
-    pub(super) fn any<L: Leaf>(self, nodes: &[Node], ray: &NodeRay, leaf: &L) -> bool {
+    pub(super) fn any<L: Leaf>(self, nodes: &[Node], ray: &NodeRay, leaf: &mut L) -> bool {
         match self.0 {
             // SAFETY: SSE2 is part of x86-64.
             Isa::Sse2 => traverse::any(nodes, ray, leaf, unsafe { Sse2::new() }),
@@ -196,7 +196,7 @@ fn closest_avx2<L: Leaf>(nodes: &[Node], ray: &NodeRay, leaf: &mut L) {
 }
 
 #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
-fn any_avx2<L: Leaf>(nodes: &[Node], ray: &NodeRay, leaf: &L) -> bool {
+fn any_avx2<L: Leaf>(nodes: &[Node], ray: &NodeRay, leaf: &mut L) -> bool {
     // SAFETY: this function is only called where there is AVX2.
     traverse::any(nodes, ray, leaf, unsafe { Avx2::new() })
 }
@@ -208,7 +208,7 @@ fn closest_avx512<L: Leaf>(nodes: &[Node], ray: &NodeRay, leaf: &mut L) {
 }
 
 #[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl,avx2,bmi1,bmi2,lzcnt,popcnt")]
-fn any_avx512<L: Leaf>(nodes: &[Node], ray: &NodeRay, leaf: &L) -> bool {
+fn any_avx512<L: Leaf>(nodes: &[Node], ray: &NodeRay, leaf: &mut L) -> bool {
     // SAFETY: this function is only called where there is AVX-512.
     traverse::any(nodes, ray, leaf, unsafe { Avx2::new() })
 }

@@ -186,7 +186,7 @@ impl Doubles for Sse2 {
 
 impl FourDoubles for Sse2 {
     #[inline(always)]
-    fn from_memory(self, lanes: &[f64; 4]) -> [__m128d; 2] {
+    fn read(self, lanes: &[f64; 4]) -> [__m128d; 2] {
         // SAFETY: there is SSE2; there are two times two lanes.
         unsafe { [_mm_loadu_pd(lanes.as_ptr()), _mm_loadu_pd(lanes.as_ptr().add(2))] }
     }
