@@ -81,7 +81,9 @@ impl Variant {
         let lights = if self.light_sampling { "on" } else { "off" };
         let clamp = self.clamp.map(|limit| format!(", clamp {limit}")).unwrap_or_default();
         let noise = self.noise.map(|target| format!(", noise {target}")).unwrap_or_default();
-        format!("{accelerator} {precision}, {sampler}, light sampling {lights}, {bounces} bounces{clamp}{noise}")
+        format!(
+            "{accelerator} {precision}, {sampler}, light sampling {lights}, {bounces} bounces{clamp}{noise}"
+        )
     }
 
     /// What is not as in `base`, in words; of the base itself "default".
