@@ -71,7 +71,7 @@ pub(super) enum Command {
     /// Measure both accelerators at all precisions on meshes of growing size, or on one's own scene or mesh
     Bench(BenchArguments),
     /// Measure what every setting of a scene's renders costs in time and gains in accuracy
-    Tradeoff(TradeoffArguments),
+    Tradeoff(Box<TradeoffArguments>),
 }
 
 /// A render as it was typed.

@@ -41,10 +41,10 @@ fn json_and_csv_hold_the_same_figures() {
     let figures: Vec<&Value> = events.iter().filter(|event| event["event"] == "figure").collect();
     let csv = String::from_utf8(folder.read("a.csv")).expect("UTF-8");
     assert_eq!(csv.lines().count(), figures.len() + 1);
-    assert!(csv.lines().all(|line| line.split(',').count() == 13));
-    // Four variants with two numbers of samples each.
+    assert!(csv.lines().all(|line| line.split(',').count() == 14));
+    // Five variants with two numbers of samples each.
     for measure in ["seconds", "mse", "rel_mse", "trimmed_rel_mse", "flip", "relative_efficiency"] {
-        assert_eq!(figures.iter().filter(|figure| figure["measure"] == measure).count(), 8, "{measure}");
+        assert_eq!(figures.iter().filter(|figure| figure["measure"] == measure).count(), 10, "{measure}");
     }
     let last = events.last().expect("an event");
     assert_eq!(last["event"], "done");
@@ -132,7 +132,7 @@ fn a_report_opens_in_a_browser() {
     };
     let page = String::from_utf8(browse(&chromium, &folder, "--dump-dom").stdout).expect("UTF-8");
     // The script has filled both lists and shown a picture on each side.
-    assert_eq!(page.matches("<option").count(), 2 * (4 * 2 + 1), "{page}");
+    assert_eq!(page.matches("<option").count(), 2 * (5 * 2 + 1), "{page}");
     assert_eq!(page.matches("<img alt=\"").count(), 2);
     assert!(page.contains("alt=\"default, 2 samples\""), "{page}");
     assert!(page.contains("alt=\"the mean of all that are right\""));

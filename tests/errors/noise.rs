@@ -1,11 +1,14 @@
 //! Blocks that stop when their error is small enough.
 
+#[cfg(feature = "embree")]
 use super::scenes::Subject;
 use crate::support::stats::{Moments, SIGNIFICANCE, two_sided_tail};
 use crate::support::watch::Unwatched;
 use pathtracer::integrator::Counters;
 use pathtracer::math::Rgb;
-use pathtracer::render::{AccelKind, Ended, NOISE_AFTER, Rendered, Settings, accumulate};
+#[cfg(feature = "embree")]
+use pathtracer::render::AccelKind;
+use pathtracer::render::{Ended, NOISE_AFTER, Rendered, Settings, accumulate};
 use pathtracer::sampling::{Independent, NumberSet, Sampler, SamplerKind};
 
 const WIDTH: u32 = 40;

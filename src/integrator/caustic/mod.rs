@@ -3,7 +3,7 @@
 //!
 //! Where a path meets a surface that is no mirror, one of the balls and a number of chords inside it are chosen, and a
 //! point of a light; every path between that point and the surface by way of this ball is added
-//! ([`chain`]). Paths that were found by the material's choice instead are weighed against these by multiple importance
+//! (`chain`). Paths that were found by the material's choice instead are weighed against these by multiple importance
 //! sampling, each by its own density; so nothing counts twice, and where a caustic is so sharp that the solution's
 //! weight would be without bound the material's choice takes over. A path that the solver would not have found keeps its
 //! whole weight: the sum is unbiased whatever the solver misses.
