@@ -4,10 +4,12 @@
 //! chunk all pixels have the same number of samples, and a tile writes only its own pixels: neither the tiles nor the
 //! threads can be seen in the sums.
 
+mod features;
 mod memory;
 mod report;
 mod tile;
 
+pub use features::{FAR, FeatureKind, FeaturePlanes};
 pub(crate) use memory::available_bytes;
 pub use memory::film_bytes;
 
@@ -17,7 +19,7 @@ use crate::accel::embree::Embree;
 use crate::accel::{Accelerator, BuildOptions, BvhQuality, Isa, Precision, check_isa};
 use crate::error::{Error, Result};
 use crate::film::Film;
-use crate::integrator::{Counters, PathTracer};
+use crate::integrator::{Counters, FeatureTracer, PathTracer};
 use crate::math::Rgb;
 use crate::sampling::{Independent, Sampler, SamplerKind, Sobol};
 use crate::scene::desc::CameraDesc;
@@ -63,6 +65,16 @@ pub enum AccelKind {
     Native,
 }
 
+impl AccelKind {
+    /// The name on the command line and in pictures.
+    pub const fn name(self) -> &'static str {
+        match self {
+            AccelKind::Embree => "embree",
+            AccelKind::Native => "native",
+        }
+    }
+}
+
 impl Default for AccelKind {
     /// Embree where it is compiled in.
     fn default() -> AccelKind {
@@ -104,6 +116,8 @@ pub struct Settings {
     /// The most that a component of a sample's radiance may be, > 0 and finite, or `None` for no limit. A limit makes
     /// the picture too dark, by [`Rendered::clamp_removed`].
     pub clamp: Option<f64>,
+    /// Whether features are collected too: albedo, normals, depth, positions, objects. They do not change the light.
+    pub features: bool,
 }
 
 impl Settings {
@@ -125,6 +139,7 @@ impl Settings {
             sampler: SamplerKind::default(),
             light_sampling: true,
             clamp: None,
+            features: false,
         }
     }
 
@@ -203,6 +218,8 @@ pub struct Rendered {
     /// What was counted for the samples that the film holds. Dropped samples, which were not finite or negative, count
     /// as black, so that all pixels have the same number of samples; there should be none.
     pub counters: Counters,
+    /// What is seen, if it was asked for.
+    pub features: Option<FeaturePlanes>,
     /// The limit of the samples' components.
     pub clamp: Option<f64>,
     /// Whether it was stopped before all samples were taken.
@@ -268,9 +285,17 @@ impl Run<'_> {
         let Settings { width, height, bounces, light_sampling, .. } = *self.settings;
         let camera = self.world.camera(self.camera, width, height);
         let tracer = PathTracer::new(self.world, &camera, accel, bounces, light_sampling);
-        take_samples(self.settings, self.watch, |x, y, index, counters| {
+        let rendered = take_samples(self.settings, self.watch, |x, y, index, counters| {
             tracer.sample(&sampler, x, y, index, counters)
-        })
+        })?;
+        if !self.settings.features {
+            return Ok(rendered);
+        }
+        let tracer = FeatureTracer { world: self.world, camera: &camera, accelerator: accel };
+        let features = features::collect(self.settings, rendered.film.samples(), |x, y, index| {
+            tracer.sample(&sampler, x, y, index)
+        });
+        Ok(Rendered { features: Some(features), ..rendered })
     }
 }
 
@@ -299,7 +324,7 @@ where
     }
     let render_seconds = start.elapsed().as_secs_f64();
     let clamp = settings.clamp;
-    Ok(Rendered { film, counters, clamp, cancelled, build_seconds: 0.0, render_seconds })
+    Ok(Rendered { film, counters, features: None, clamp, cancelled, build_seconds: 0.0, render_seconds })
 }
 
 /// What the passes of a render share.

@@ -2,21 +2,24 @@
 
 mod bench;
 mod compare;
+mod diff;
 mod values;
 
 pub(super) use bench::{BenchArguments, BenchJob, Subject};
 pub(super) use compare::{CompareArguments, CompareJob};
+pub(super) use diff::DiffArguments;
 pub(super) use values::{ACCELS, BVHS, ISAS, PRECISIONS, name_of};
 
 use crate::accel::{BvhQuality, Isa, Precision};
 use crate::error::Error;
-use crate::render::{AccelKind, MAX_BOUNCES, MAX_SAMPLES, MAX_SIDE, MAX_THREADS, Settings};
+use crate::picture::Depth;
+use crate::render::{AccelKind, FeatureKind, MAX_BOUNCES, MAX_SAMPLES, MAX_SIDE, MAX_THREADS, Settings};
 use crate::sampling::SamplerKind;
 use clap::{CommandFactory, FromArgMatches, Parser};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
-use values::{SAMPLERS, SWITCH, choice, positive, stops, whole};
+use values::{DEPTHS, FEATURES, SAMPLERS, SWITCH, choice, positive, stops, whole};
 
 /// The positional arguments of a render, as messages name them.
 const POSITIONALS: [&str; 6] = ["SCENE", "WIDTH", "HEIGHT", "SAMPLES", "BOUNCES", "IMAGE"];
@@ -36,7 +39,9 @@ static VERSION: LazyLock<String> = LazyLock::new(|| {
     override_usage = "pathtracer [OPTIONS] SCENE WIDTH HEIGHT SAMPLES BOUNCES IMAGE\n       \
                       pathtracer check SCENE...\n       \
                       pathtracer compare [OPTIONS] SCENE\n       \
-                      pathtracer bench [OPTIONS] [SCENE | OBJ]",
+                      pathtracer bench [OPTIONS] [SCENE | OBJ]\n       \
+                      pathtracer diff [OPTIONS] PICTURE REFERENCE\n       \
+                      pathtracer info PICTURE",
     args_conflicts_with_subcommands = true,
     disable_help_subcommand = true
 )]
@@ -48,7 +53,7 @@ pub(super) struct Arguments {
 }
 
 const EXIT_CODES: &str = "A scene that is named like a command is reached by ./NAME.\n\
-    Exit codes: 0 done, 1 failure, 2 usage, 3 bad scene, 4 hits or pictures differ (compare), 130 and 143 interrupted.";
+    Exit codes: 0 done, 1 failure, 2 usage, 3 bad scene, 4 hits or pictures differ (compare, diff), 130 and 143 interrupted.";
 
 #[derive(Debug, clap::Subcommand)]
 pub(super) enum Command {
@@ -63,6 +68,15 @@ pub(super) enum Command {
     Compare(CompareArguments),
     /// Measure both accelerators at all precisions on meshes of growing size, or on one's own scene or mesh
     Bench(BenchArguments),
+    /// Say how far a picture is from another one
+    Diff(DiffArguments),
+    /// Say how a picture was made, and the command that makes it again
+    #[command(override_usage = "pathtracer info PICTURE")]
+    Info {
+        /// A picture
+        #[arg(value_name = "PICTURE")]
+        picture: PathBuf,
+    },
 }
 
 /// A render as it was typed.
@@ -83,7 +97,7 @@ pub(super) struct RenderArguments {
     /// Longest path in ray segments; 1 shows only lights and the sky
     #[arg(value_name = "BOUNCES", allow_negative_numbers = true, value_parser = whole(MAX_BOUNCES.into()))]
     bounces: Option<u64>,
-    /// Picture to write: .png (8-bit sRGB) or .exr (linear f32)
+    /// Picture to write: .png, .exr (linear), and with OpenImageIO .tif, .hdr (linear), .jpg
     #[arg(value_name = "IMAGE")]
     image: Option<PathBuf>,
     /// Takes what is too much, so that it can be named.
@@ -120,9 +134,22 @@ pub(super) struct RenderArguments {
     /// Most that a component of a sample's radiance may be; takes light away and says how much [default: no limit]
     #[arg(long, value_name = "X", allow_negative_numbers = true, value_parser = positive)]
     clamp: Option<f64>,
-    /// Brightness of a PNG in stops, -100 to 100
+    /// Brightness of a picture that is not linear in stops, -100 to 100
     #[arg(long, value_name = "STOPS", allow_negative_numbers = true, default_value = "0", value_parser = stops)]
     exposure: f64,
+    /// What a value of the picture takes: 8 or 16 bits of sRGB (.png, .tif), half or float, linear (.exr; .tif: float)
+    /// [default: 8, of .exr and .hdr float]
+    #[arg(long, value_name = "NAME", value_parser = choice(&DEPTHS))]
+    depth: Option<Depth>,
+    /// Channels of an EXR beside the light: albedo, normal, depth, position, object; several with commas
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = choice(&FEATURES))]
+    aov: Vec<FeatureKind>,
+    /// Remove noise by Open Image Denoise; the noisy picture is kept beside, as NAME.noisy
+    #[arg(long)]
+    denoise: bool,
+    /// Write time, threads and machine into the picture, which then differs from equal renders
+    #[arg(long)]
+    stamp: bool,
     /// Print errors only
     #[arg(long, short)]
     quiet: bool,
@@ -139,6 +166,13 @@ pub(super) struct Job {
     pub(super) settings: Settings,
     /// In stops.
     pub(super) exposure: f64,
+    pub(super) depth: Option<Depth>,
+    /// What goes beside the light into an EXR.
+    pub(super) aov: Vec<FeatureKind>,
+    /// Whether the picture is denoised.
+    pub(super) denoise: bool,
+    /// Whether the picture says when and where it was made.
+    pub(super) stamp: bool,
     pub(super) quiet: bool,
     pub(super) json: bool,
 }
@@ -190,9 +224,11 @@ impl RenderArguments {
             sampler: self.sampler.unwrap_or(defaults.sampler),
             light_sampling: self.light_sampling.unwrap_or(defaults.light_sampling),
             clamp: self.clamp,
+            features: self.denoise || !self.aov.is_empty(),
             ..defaults
         };
-        Ok(Job { scene, image, settings, exposure: self.exposure, quiet: self.quiet, json: self.json })
+        let RenderArguments { exposure, depth, aov, denoise, stamp, quiet, json, .. } = self;
+        Ok(Job { scene, image, settings, exposure, depth, aov, denoise, stamp, quiet, json })
     }
 
     /// How many positional arguments there are.
@@ -207,7 +243,8 @@ impl RenderArguments {
 fn usage(message: &str) -> Error {
     Error::Usage(format!(
         "{message}\n\nUsage: pathtracer [OPTIONS] {}\n       pathtracer check SCENE...\n       \
-         pathtracer compare [OPTIONS] SCENE\n       pathtracer bench [OPTIONS] [SCENE | OBJ]\n\nFor more information, try '--help'.",
+         pathtracer compare [OPTIONS] SCENE\n       pathtracer bench [OPTIONS] [SCENE | OBJ]\n       \
+         pathtracer diff [OPTIONS] PICTURE REFERENCE\n       pathtracer info PICTURE\n\nFor more information, try '--help'.",
         POSITIONALS.join(" ")
     ))
 }

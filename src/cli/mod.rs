@@ -9,12 +9,15 @@ mod check;
 mod compare;
 mod console;
 mod describe;
+mod diff;
 mod event;
 mod file;
 mod findings;
+mod info;
 mod interrupt;
 mod progress;
 mod render;
+mod target;
 
 use crate::error::Error;
 use arguments::{Arguments, Command};
@@ -28,6 +31,8 @@ pub fn run(arguments: &[OsString]) -> anyhow::Result<u8> {
         Some(Command::Check { scenes }) => Ok(check::run(&scenes)),
         Some(Command::Compare(arguments)) => compare::run(&arguments.resolve()?),
         Some(Command::Bench(arguments)) => bench::run(&arguments.resolve()?),
+        Some(Command::Diff(arguments)) => diff::run(&arguments),
+        Some(Command::Info { picture }) => info::run(&picture),
         None => render::run(&render.resolve()?),
     }
 }

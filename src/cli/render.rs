@@ -4,10 +4,10 @@ use super::arguments::Job;
 use super::console::{duration, say, with_prefix};
 use super::event::{self, Event, JobRecord, Seconds, Summary, per_second};
 use super::progress::Reporter;
+use super::target::Target;
 use super::{describe, findings, interrupt};
 use crate::error::Error;
-use crate::output;
-use crate::picture::Destination;
+use crate::output::Provenance;
 use crate::render::{Rendered, in_pool, render};
 use crate::scene;
 use crate::world::World;
@@ -17,7 +17,8 @@ use std::time::{Duration, Instant};
 pub(super) fn run(job: &Job) -> anyhow::Result<u8> {
     // Whatever can be known to fail fails before the work.
     job.settings.check()?;
-    let destination = Destination::new(&job.image)?;
+    let target = Target::new(job)?;
+    let destination = &target.picture;
     interrupt::listen(destination.partial_path().to_path_buf())?;
 
     let (scene, load) = timed(|| in_pool(&job.settings, || scene::load(&job.scene)));
@@ -37,7 +38,7 @@ pub(super) fn run(job: &Job) -> anyhow::Result<u8> {
     }
 
     // The world has all it needs of the meshes.
-    let camera = scene.desc.camera.clone();
+    let (camera, digest) = (scene.desc.camera.clone(), scene.digest);
     drop(scene);
     let reporter = Reporter::new(job);
     let rendered = render(&world, &camera, &job.settings, &reporter);
@@ -46,7 +47,17 @@ pub(super) fn run(job: &Job) -> anyhow::Result<u8> {
     if rendered.film.samples() == 0 {
         return Err(Error::Interrupted.into());
     }
-    let (written, write) = timed(|| output::write(&rendered.film, job.exposure, &destination));
+    let provenance = Provenance {
+        scene: &job.scene,
+        digest,
+        camera: &camera,
+        world: &world,
+        settings: &job.settings,
+        samples: rendered.film.samples(),
+        is_clamped: rendered.counters.clamped > 0,
+        exposure: job.exposure,
+    };
+    let (written, write) = timed(|| target.write(job, &provenance, &rendered));
     written?;
 
     let build = compile + rendered.build_seconds;

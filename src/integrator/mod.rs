@@ -1,8 +1,10 @@
-//! How much light arrives?
+//! How much light arrives, and what is seen?
 
 mod counters;
+mod features;
 mod numbers;
 mod path;
 
 pub use counters::{Counters, FixedSum};
+pub use features::{FeatureTracer, Features};
 pub use path::PathTracer;

@@ -119,7 +119,8 @@ impl<'a, A: Accelerator> PathTracer<'a, A> {
             counters.cut_throughput.add(path.throughput.element_sum() / 3.0);
             return false;
         }
-        let material = self.world.material(hit.object);
+        let varied = self.world.varied_material(&hit, &at);
+        let material = varied.as_ref().unwrap_or_else(|| self.world.material(hit.object));
         let numbers = path.numbers.segment(segment);
         let aims = self.light_sampling && !material.is_delta();
         if aims {

@@ -1,11 +1,14 @@
 mod bench;
 mod check;
 mod compare;
+mod diff;
+mod features;
 mod findings;
 mod information;
 mod interrupt;
 mod json;
 mod pictures;
+mod provenance;
 mod usage;
 
 use std::fs;
