@@ -295,7 +295,7 @@ impl Run<'_> {
         let features = features::collect(self.settings, rendered.film.samples(), |x, y, index| {
             tracer.sample(&sampler, x, y, index)
         });
-        Ok(Rendered { features: Some(features), ..rendered })
+        Ok(Rendered { features: Some(features?), ..rendered })
     }
 }
 

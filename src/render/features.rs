@@ -1,6 +1,7 @@
 //! The features of all pixels, for channels beside the light and for denoising.
 
-use super::Settings;
+use super::{Settings, memory};
+use crate::error::Result;
 use crate::integrator::Features;
 use crate::picture::{Channel, Samples};
 use rayon::prelude::*;
@@ -53,18 +54,18 @@ impl FeatureKind {
 }
 
 /// Collects `samples` samples of every pixel; `feature(x, y, index)` finds one.
-pub(super) fn collect<F>(settings: &Settings, samples: u64, feature: F) -> FeaturePlanes
+pub(super) fn collect<F>(settings: &Settings, samples: u64, feature: F) -> Result<FeaturePlanes>
 where
     F: Fn(u32, u32, u64) -> Features + Sync,
 {
     let width = settings.width as usize;
-    let mut pixels = vec![Features::default(); width * settings.height as usize];
+    let mut pixels: Vec<Features> = memory::plane(settings)?;
     pixels.par_chunks_mut(width).enumerate().for_each(|(y, row)| {
         for (pixel, x) in row.iter_mut().zip(0u32..) {
             (0..samples).for_each(|index| *pixel += feature(x, y as u32, index));
         }
     });
-    FeaturePlanes { pixels }
+    Ok(FeaturePlanes { pixels })
 }
 
 impl FeaturePlanes {

@@ -3,6 +3,7 @@
 use super::Settings;
 use crate::error::{Error, Result};
 use crate::film::Film;
+use crate::integrator::Features;
 use crate::math::Rgb;
 use std::fs;
 
@@ -17,7 +18,11 @@ pub fn film_bytes(width: u32, height: u32, samples: u64, chunk: u32) -> u64 {
 
 /// Whether the film fits into the memory that is free now; passes where the system does not say.
 pub(super) fn check(settings: &Settings) -> Result<()> {
-    let needed = film_bytes(settings.width, settings.height, settings.samples, settings.chunk);
+    let pixels = u64::from(settings.width) * u64::from(settings.height);
+    // The features and the channels that they become.
+    let features = if settings.features { pixels * 2 * size_of::<Features>() as u64 } else { 0 };
+    let film = film_bytes(settings.width, settings.height, settings.samples, settings.chunk);
+    let needed = film.saturating_add(features);
     match available_bytes() {
         Some(available) if needed > available => Err(too_large(settings, Some(available))),
         _ => Ok(()),
@@ -25,11 +30,11 @@ pub(super) fn check(settings: &Settings) -> Result<()> {
 }
 
 /// One zero a pixel.
-pub(super) fn plane(settings: &Settings) -> Result<Vec<Rgb>> {
+pub(super) fn plane<T: Clone + Default>(settings: &Settings) -> Result<Vec<T>> {
     let pixels = settings.width as usize * settings.height as usize;
     let mut plane = Vec::new();
     plane.try_reserve_exact(pixels).map_err(|_| too_large(settings, None))?;
-    plane.resize(pixels, Rgb::ZERO);
+    plane.resize(pixels, T::default());
     Ok(plane)
 }
 
