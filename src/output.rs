@@ -1,17 +1,35 @@
-//! A film becomes a picture: exposure, curve, range.
+//! A film becomes a picture: exposure, curve, range, and what the file says about itself.
+
+mod provenance;
+mod stamp;
+
+pub use crate::picture::{quantize, srgb_encode};
+pub use provenance::{PREFIX, Provenance, arguments};
+pub use stamp::{date_time, stamp};
 
 use crate::error::Result;
 use crate::film::Film;
 use crate::math::Rgb;
-use crate::picture::{Destination, Format, Pixels};
+use crate::picture::{Depth, Destination, Metadata, Picture, Pixels, f16, quantize_word};
 
-/// Writes the means of a film. A PNG shows them x 2^`exposure` through the sRGB curve, an EXR holds them as they are.
+/// Writes the means of a film alone; see [`picture`].
 pub fn write(film: &Film, exposure: f64, destination: &Destination) -> Result<()> {
-    let pixels = match destination.format() {
-        Format::Png => Pixels::Bytes(display_bytes(film, exposure)),
-        Format::Exr => Pixels::Floats(linear_floats(film)),
+    let light: Vec<f64> = channels(film).collect();
+    let size = (film.width(), film.height());
+    destination.write_picture(&picture(size, &light, exposure, destination.depth()))
+}
+
+/// Light (R G B, row by row) as a picture of a depth: in 8 or 16 bits x 2^`exposure` (in stops) through the sRGB curve,
+/// in floats as it is.
+pub fn picture((width, height): (u32, u32), light: &[f64], exposure: f64, depth: Depth) -> Picture {
+    let shown = || displayed(light.iter().copied(), exposure);
+    let pixels = match depth {
+        Depth::Eight => Pixels::Bytes(shown().map(quantize).collect()),
+        Depth::Sixteen => Pixels::Words(shown().map(quantize_word).collect()),
+        Depth::Half => Pixels::Halves(light.iter().map(|&value| to_half(value)).collect()),
+        Depth::Float => Pixels::Floats(light.iter().map(|&value| to_float(value)).collect()),
     };
-    destination.write(film.width(), film.height(), &pixels)
+    Picture { width, height, pixels, channels: Vec::new(), metadata: Metadata::default() }
 }
 
 /// Writes the error of every pixel into an EXR: R the mean of its components, G the standard error of that, B half the width
@@ -33,27 +51,32 @@ pub fn write_error_bars(film: &Film, destination: &Destination) -> Result<bool> 
 
 /// The means of a film x 2^`exposure` (in stops), clipped to 0..1, sRGB-encoded, in 8 bits: R G B, row by row.
 pub fn display_bytes(film: &Film, exposure: f64) -> Vec<u8> {
+    displayed(channels(film), exposure).map(quantize).collect()
+}
+
+/// Values x 2^`exposure` (in stops), clipped to 0..1, sRGB-encoded.
+fn displayed(light: impl Iterator<Item = f64>, exposure: f64) -> impl Iterator<Item = f64> {
     let factor = libm::exp2(exposure);
-    channels(film).map(|value| quantize(srgb_encode(value * factor))).collect()
+    light.map(move |value| srgb_encode(value * factor))
+}
+
+/// The nearest half float; what exceeds their range becomes the largest.
+fn to_half(value: f64) -> f16 {
+    f16::from_f64(value.min(f16::MAX.to_f64()))
+}
+
+/// The nearest f32; what exceeds their range becomes the largest.
+fn to_float(value: f64) -> f32 {
+    value.min(f64::from(f32::MAX)) as f32
 }
 
 /// The means of a film in f32: R G B, row by row. What exceeds the range of f32 becomes its largest number, so that no
 /// infinity enters a file.
 pub fn linear_floats(film: &Film) -> Vec<f32> {
-    channels(film).map(|value| value.min(f64::from(f32::MAX)) as f32).collect()
+    channels(film).map(to_float).collect()
 }
 
-/// The sRGB curve of IEC 61966-2-1 at a linear value, which is clipped to 0..1 first. The value lies in 0..1.
-pub fn srgb_encode(linear: f64) -> f64 {
-    let x = linear.clamp(0.0, 1.0);
-    if x <= 0.003_130_8 { 12.92 * x } else { 1.055 * libm::pow(x, 1.0 / 2.4) - 0.055 }
-}
-
-/// A value in 0..1 as the nearest of 256 steps; halves go up.
-pub fn quantize(value: f64) -> u8 {
-    (value * 255.0 + 0.5) as u8
-}
-
-fn channels(film: &Film) -> impl Iterator<Item = f64> + '_ {
+/// The means of a film: R G B, row by row.
+pub fn channels(film: &Film) -> impl Iterator<Item = f64> + '_ {
     film.means().flat_map(|mean: Rgb| mean.to_array())
 }

@@ -8,6 +8,7 @@ mod adaptive;
 mod cells;
 mod chunks;
 mod error_pixels;
+mod features;
 mod memory;
 mod meter;
 mod outlook;
@@ -16,6 +17,7 @@ mod report;
 mod tile;
 
 pub use adaptive::NOISE_AFTER;
+pub use features::{FAR, FeatureKind, FeaturePlanes};
 pub(crate) use memory::available_bytes;
 pub use memory::film_bytes;
 pub use outlook::Outlook;
@@ -26,7 +28,7 @@ use crate::accel::embree::Embree;
 use crate::accel::{Accelerator, BuildOptions, BvhQuality, Isa, Precision, check_isa};
 use crate::error::{Error, Result};
 use crate::film::{Film, PictureError};
-use crate::integrator::{Counters, PathTracer};
+use crate::integrator::{Counters, FeatureTracer, PathTracer};
 use crate::math::Rgb;
 use crate::sampling::{Independent, Sampler, SamplerKind, Scrambles, Sobol};
 use crate::scene::desc::CameraDesc;
@@ -76,6 +78,16 @@ pub enum AccelKind {
     Embree,
     /// The BVH of this program.
     Native,
+}
+
+impl AccelKind {
+    /// The name on the command line and in pictures.
+    pub const fn name(self) -> &'static str {
+        match self {
+            AccelKind::Embree => "embree",
+            AccelKind::Native => "native",
+        }
+    }
 }
 
 impl Default for AccelKind {
@@ -132,6 +144,8 @@ pub struct Settings {
     /// How long sampling may take, at least [`MIN_TIME`]. One sample a pixel is taken in any case. The picture is that of a
     /// render whose `samples` are what this one took.
     pub time: Option<Duration>,
+    /// Whether features are collected too: albedo, normals, depth, positions, objects. They do not change the light.
+    pub features: bool,
 }
 
 impl Settings {
@@ -157,6 +171,7 @@ impl Settings {
             error_estimate: false,
             noise: None,
             time: None,
+            features: false,
         }
     }
 
@@ -288,6 +303,8 @@ pub struct Rendered {
     /// What was counted for these samples. Dropped samples, which were not finite or negative, count
     /// as black, so that all pixels have the same number of samples; there should be none.
     pub counters: Counters,
+    /// What is seen, if it was asked for.
+    pub features: Option<FeaturePlanes>,
     /// The limit of the samples' components.
     pub clamp: Option<f64>,
     /// How far the picture is from the truth, estimated from the film if its eight scrambles have their first round,
@@ -356,9 +373,17 @@ impl Run<'_> {
         let Settings { width, height, bounces, light_sampling, .. } = *self.settings;
         let camera = self.world.camera(self.camera, width, height);
         let tracer = PathTracer::new(self.world, &camera, accel, bounces, light_sampling);
-        take_samples(self.settings, self.watch, |x, y, index, counters| {
+        let rendered = take_samples(self.settings, self.watch, |x, y, index, counters| {
             tracer.sample(&sampler, x, y, index, counters)
-        })
+        })?;
+        if !self.settings.features {
+            return Ok(rendered);
+        }
+        let tracer = FeatureTracer { world: self.world, camera: &camera, accelerator: accel };
+        let features = features::collect(self.settings, rendered.film.samples(), |x, y, index| {
+            tracer.sample(&sampler, x, y, index)
+        });
+        Ok(Rendered { features: Some(features?), ..rendered })
     }
 }
 

@@ -2,7 +2,7 @@ use pathtracer::error::Error;
 use pathtracer::film::{Film, Sums};
 use pathtracer::math::Rgb;
 use pathtracer::output::{self, display_bytes, linear_floats, quantize, srgb_encode};
-use pathtracer::picture::{Destination, Format, Pixels};
+use pathtracer::picture::{Depth, Destination, Format, Metadata, Pixels};
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
@@ -114,10 +114,13 @@ fn the_extension_decides_whatever_its_case() {
 
 #[test]
 fn an_unknown_extension_is_refused_with_the_known_ones() {
-    for name in ["a.jpg", "png", "a.", ".png", ""] {
+    for name in ["a.gif", "png", "a.", ".png", ""] {
         let error = Format::of(Path::new(name)).expect_err("unknown");
         assert!(matches!(error, Error::Usage(_)));
-        assert!(error.to_string().ends_with("known are .png, .exr"), "{error}");
+        assert!(
+            error.to_string().ends_with("known are .png, .exr, .tif, .tiff, .hdr, .jpg, .jpeg"),
+            "{error}"
+        );
     }
 }
 
@@ -165,4 +168,87 @@ fn the_file_behind_a_link_is_replaced() {
     destination.write(1, 1, &Pixels::Bytes(vec![1, 2, 3])).expect("a picture");
     assert!(fs::symlink_metadata(&link).expect("the link").is_symlink());
     assert_eq!(image::open(&file).expect("a PNG").into_bytes(), [1, 2, 3]);
+}
+
+#[test]
+fn an_exr_of_this_program_is_read_by_the_exr_crate_with_all_its_channels_and_attributes() {
+    use exr::prelude::{FlatSamples, Text, read_all_flat_layers_from_file};
+    use pathtracer::picture::{Channel, Picture, Samples, Value};
+    let folder = folder();
+    let path = folder.path().join("a.exr");
+    // More lines than a block, an odd number of bytes in none, values that compress and such that do not.
+    let (width, height) = (5u32, 37u32);
+    let pixels = (width * height) as usize;
+    let rgb: Vec<f32> = (0..3 * pixels).map(|i| (i as f32 * 12.9898).sin() * 1e3).collect();
+    let depth: Vec<f32> = (0..pixels).map(|i| (i / 7) as f32).collect();
+    let object: Vec<u32> = (0..pixels as u32).map(|i| i % 3).collect();
+    let mut metadata = Metadata::default();
+    metadata.push("a name of more than thirty-one letters", Value::Text("text".into()));
+    metadata.push("number", Value::Number(0.25));
+    let picture = Picture {
+        width,
+        height,
+        pixels: Pixels::Floats(rgb.clone()),
+        channels: vec![
+            Channel { name: "Z".into(), values: Samples::Floats(depth.clone()) },
+            Channel { name: "Object".into(), values: Samples::Integers(object.clone()) },
+        ],
+        metadata,
+    };
+    Destination::new(&path).expect("a writable folder").write_picture(&picture).expect("written");
+    let read = read_all_flat_layers_from_file(&path).expect("an EXR");
+    let layer = &read.layer_data[0];
+    let names: Vec<String> = layer.channel_data.list.iter().map(|channel| channel.name.to_string()).collect();
+    assert_eq!(names, ["B", "G", "Object", "R", "Z"]);
+    let component = |i: usize| rgb.iter().skip(i).step_by(3).copied().collect::<Vec<f32>>();
+    let expected = [FlatSamples::F32(component(2)), FlatSamples::F32(component(1)), FlatSamples::U32(object)];
+    for (channel, expected) in layer.channel_data.list.iter().zip(&expected) {
+        assert_eq!(format!("{:?}", channel.sample_data), format!("{expected:?}"));
+    }
+    assert_eq!(
+        format!("{:?}", layer.channel_data.list[4].sample_data),
+        format!("{:?}", FlatSamples::F32(depth))
+    );
+    let other = &layer.attributes.other;
+    let text: Text = "a name of more than thirty-one letters".into();
+    assert!(other.contains_key(&text));
+}
+
+#[test]
+fn a_date_is_told_as_exif_does() {
+    // `date -u -d @SECONDS`.
+    assert_eq!(output::date_time(0), "1970:01:01 00:00:00");
+    assert_eq!(output::date_time(951_782_399), "2000:02:28 23:59:59");
+    assert_eq!(output::date_time(951_782_400), "2000:02:29 00:00:00");
+    assert_eq!(output::date_time(4_107_542_400), "2100:03:01 00:00:00");
+}
+
+#[test]
+fn sixteen_bits_and_half_floats_read_back_to_their_rounding() {
+    let folder = folder();
+    let film = film(Rgb::new(0.0, 0.1, 1e6), Rgb::new(1.0, 0.18, 1e-3));
+    let read = |name: &str, depth: Depth| {
+        let path = folder.path().join(name);
+        let destination = Destination::new(&path).and_then(|place| place.with_depth(depth)).expect("a place");
+        output::write(&film, 0.0, &destination).expect("written");
+        image::open(path).expect("a picture").into_rgb32f().into_raw()
+    };
+    let words = read("a.png", Depth::Sixteen);
+    for (value, linear) in words.iter().zip([0.0, 0.1, 1.0, 1.0, 0.18, 1e-3]) {
+        // Half a step of 16 bits, and f32's rounding.
+        assert!((f64::from(*value) - srgb_encode(linear)).abs() <= 0.5 / 65535.0 + 1e-7, "{value} {linear}");
+    }
+    let halves = read("a.exr", Depth::Half);
+    for (value, linear) in halves.iter().zip([0.0, 0.1, 65504.0, 1.0, 0.18, 1e-3]) {
+        // A half has 11 digits in base 2.
+        assert!((value - linear).abs() <= linear * 2f32.powi(-11), "{value} {linear}");
+    }
+}
+
+#[test]
+fn a_depth_that_a_format_does_not_have_is_refused() {
+    let folder = folder();
+    let place = Destination::new(&folder.path().join("a.png")).expect("a place");
+    let error = place.with_depth(Depth::Half).expect_err("no half floats in a PNG");
+    assert_eq!(error.to_string(), "a PNG has values of depth 8 or 16, not half");
 }

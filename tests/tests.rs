@@ -11,6 +11,10 @@ mod generate;
 /// Pictures in files: curve, formats, whole or not at all.
 mod picture;
 
+/// Formats of OpenImageIO.
+#[cfg(feature = "oiio")]
+mod oiio;
+
 /// Bad scenes and meshes: each mistake and its message.
 mod scene_errors;
 /// Scene files and meshes as they should be: every key, every default, every style.
@@ -33,8 +37,14 @@ mod material;
 /// The samplers and the warps.
 mod sampling;
 
+/// Skies that are pictures.
+mod environment_map;
 /// Every light against its density.
 mod lights;
+/// Materials of OBJ files.
+mod materials_of_files;
+/// Pictures as colours of surfaces.
+mod textures;
 /// Light transport against closed forms: furnaces, lights of every shape, the sky.
 mod transport;
 

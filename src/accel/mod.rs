@@ -54,6 +54,39 @@ pub enum BvhQuality {
     Quality,
 }
 
+impl Precision {
+    /// The name on the command line and in pictures.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Precision::Exact => "exact",
+            Precision::Robust => "robust",
+            Precision::Fast => "fast",
+        }
+    }
+}
+
+impl Isa {
+    /// The name on the command line and in pictures.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Isa::Sse2 => "sse2",
+            Isa::Avx2 => "avx2",
+            Isa::Avx512 => "avx512",
+        }
+    }
+}
+
+impl BvhQuality {
+    /// The name on the command line and in pictures.
+    pub const fn name(self) -> &'static str {
+        match self {
+            BvhQuality::Fast => "fast",
+            BvhQuality::Default => "default",
+            BvhQuality::Quality => "quality",
+        }
+    }
+}
+
 /// What an accelerator is built with.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct BuildOptions {
@@ -73,7 +106,15 @@ pub struct BuildOptions {
 /// # Errors
 /// [`crate::error::Error::Usage`] with the best that it has.
 pub fn check_isa(isa: Option<Isa>) -> Result<()> {
-    bvh::Instructions::choose(isa).map(|_| ())
+    used_isa(isa).map(drop)
+}
+
+/// The instructions that are used if these are asked for.
+///
+/// # Errors
+/// As for [`check_isa`].
+pub fn used_isa(isa: Option<Isa>) -> Result<Isa> {
+    bvh::Instructions::choose(isa).map(bvh::Instructions::isa)
 }
 
 /// Answers for rays; see [`crate::geometry`] for what a hit is.

@@ -2,18 +2,21 @@
 
 mod bench;
 mod compare;
+mod diff;
 mod tradeoff;
 mod values;
 
 pub(super) use bench::{BenchArguments, BenchJob, Subject};
 pub(super) use compare::{CompareArguments, CompareJob};
+pub(super) use diff::DiffArguments;
 pub(super) use tradeoff::{TradeoffArguments, TradeoffJob};
 pub(super) use values::{ACCELS, BVHS, ISAS, PRECISIONS, name_of};
 
 use crate::accel::{BvhQuality, Isa, Precision};
 use crate::error::Error;
+use crate::picture::Depth;
 use crate::render::{
-    AccelKind, MAX_BOUNCES, MAX_SAMPLES, MAX_SIDE, MAX_THREADS, SHORT_SCRAMBLE_LENGTH, Settings,
+    AccelKind, FeatureKind, MAX_BOUNCES, MAX_SAMPLES, MAX_SIDE, MAX_THREADS, SHORT_SCRAMBLE_LENGTH, Settings,
 };
 use crate::sampling::SamplerKind;
 use clap::{CommandFactory, FromArgMatches, Parser};
@@ -21,7 +24,7 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 use std::time::Duration;
-use values::{SAMPLERS, SWITCH, choice, positive, stops, time, whole, whole_or_none};
+use values::{DEPTHS, FEATURES, SAMPLERS, SWITCH, choice, positive, stops, time, whole, whole_or_none};
 
 /// The positional arguments of a render, as messages name them.
 const POSITIONALS: [&str; 6] = ["SCENE", "WIDTH", "HEIGHT", "SAMPLES", "BOUNCES", "IMAGE"];
@@ -42,7 +45,9 @@ static VERSION: LazyLock<String> = LazyLock::new(|| {
                       pathtracer check SCENE...\n       \
                       pathtracer compare [OPTIONS] SCENE\n       \
                       pathtracer bench [OPTIONS] [SCENE | OBJ]\n       \
-                      pathtracer tradeoff [OPTIONS] SCENE",
+                      pathtracer tradeoff [OPTIONS] SCENE\n       \
+                      pathtracer diff [OPTIONS] PICTURE REFERENCE\n       \
+                      pathtracer info PICTURE",
     args_conflicts_with_subcommands = true,
     disable_help_subcommand = true
 )]
@@ -54,7 +59,7 @@ pub(super) struct Arguments {
 }
 
 const EXIT_CODES: &str = "A scene that is named like a command is reached by ./NAME.\n\
-    Exit codes: 0 done, 1 failure, 2 usage, 3 bad scene, 4 hits or pictures differ (compare),\n\
+    Exit codes: 0 done, 1 failure, 2 usage, 3 bad scene, 4 hits or pictures differ (compare, diff),\n\
     5 the time of --time was up before the error of --noise was reached, 130 and 143 interrupted.";
 
 #[derive(Debug, clap::Subcommand)]
@@ -72,6 +77,15 @@ pub(super) enum Command {
     Bench(BenchArguments),
     /// Measure what every setting of a scene's renders costs in time and gains in accuracy
     Tradeoff(Box<TradeoffArguments>),
+    /// Say how far a picture is from another one
+    Diff(DiffArguments),
+    /// Say how a picture was made, and the command that makes it again
+    #[command(override_usage = "pathtracer info PICTURE")]
+    Info {
+        /// A picture
+        #[arg(value_name = "PICTURE")]
+        picture: PathBuf,
+    },
 }
 
 /// A render as it was typed.
@@ -92,7 +106,7 @@ pub(super) struct RenderArguments {
     /// Longest path in ray segments; 1 shows only lights and the sky
     #[arg(value_name = "BOUNCES", allow_negative_numbers = true, value_parser = whole(MAX_BOUNCES.into()))]
     bounces: Option<u64>,
-    /// Picture to write: .png (8-bit sRGB) or .exr (linear f32)
+    /// Picture to write: .png, .exr (linear), and with OpenImageIO .tif, .hdr (linear), .jpg
     #[arg(value_name = "IMAGE")]
     image: Option<PathBuf>,
     /// Takes what is too much, so that it can be named.
@@ -138,13 +152,30 @@ pub(super) struct RenderArguments {
     /// Also write the error of every pixel: an .exr with its mean, standard error and half 95 % interval in R, G and B
     #[arg(long, value_name = "FILE")]
     error_bars: Option<PathBuf>,
+    /// Points that each of a pixel's eight scrambles gets at first [default: 128; 2 where it costs nothing, and with
+    /// --noise and --error-bars]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(1..))]
+    scramble_length: Option<u32>,
     /// Whether the error of the picture is estimated from a few pixels where its samples alone can't tell it, for about 3 %
     /// more time [default: on]
     #[arg(long, value_name = "on|off", value_parser = choice(&SWITCH))]
     error_estimate: Option<bool>,
-    /// Brightness of a PNG in stops, -100 to 100
+    /// Brightness of a picture that is not linear in stops, -100 to 100
     #[arg(long, value_name = "STOPS", allow_negative_numbers = true, default_value = "0", value_parser = stops)]
     exposure: f64,
+    /// What a value of the picture takes: 8 or 16 bits of sRGB (.png, .tif), half or float, linear (.exr; .tif: float)
+    /// [default: 8, of .exr and .hdr float]
+    #[arg(long, value_name = "NAME", value_parser = choice(&DEPTHS))]
+    depth: Option<Depth>,
+    /// Channels of an EXR beside the light: albedo, normal, depth, position, object; several with commas
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = choice(&FEATURES))]
+    aov: Vec<FeatureKind>,
+    /// Remove noise by Open Image Denoise; the noisy picture is kept beside, as NAME.noisy
+    #[arg(long)]
+    denoise: bool,
+    /// Write time, threads and machine into the picture, which then differs from equal renders
+    #[arg(long)]
+    stamp: bool,
     /// Print errors only
     #[arg(long, short)]
     quiet: bool,
@@ -163,6 +194,13 @@ pub(super) struct Job {
     pub(super) settings: Settings,
     /// In stops.
     pub(super) exposure: f64,
+    pub(super) depth: Option<Depth>,
+    /// What goes beside the light into an EXR.
+    pub(super) aov: Vec<FeatureKind>,
+    /// Whether the picture is denoised.
+    pub(super) denoise: bool,
+    /// Whether the picture says when and where it was made.
+    pub(super) stamp: bool,
     pub(super) quiet: bool,
     pub(super) json: bool,
 }
@@ -219,13 +257,16 @@ impl RenderArguments {
             light_sampling: self.light_sampling.unwrap_or(defaults.light_sampling),
             clamp: self.clamp,
             error_estimate: self.error_estimate.unwrap_or(true),
-            scramble_length: self.error_bars.is_some().then_some(SHORT_SCRAMBLE_LENGTH),
+            scramble_length: self
+                .scramble_length
+                .or(self.error_bars.is_some().then_some(SHORT_SCRAMBLE_LENGTH)),
             noise: self.noise,
             time: self.time,
+            features: self.denoise || !self.aov.is_empty(),
             ..defaults
         };
-        let RenderArguments { exposure, quiet, json, error_bars, .. } = self;
-        Ok(Job { scene, image, error_bars, settings, exposure, quiet, json })
+        let RenderArguments { exposure, depth, aov, denoise, stamp, quiet, json, error_bars, .. } = self;
+        Ok(Job { scene, image, error_bars, settings, exposure, depth, aov, denoise, stamp, quiet, json })
     }
 
     /// How many positional arguments there are.
@@ -241,7 +282,7 @@ fn usage(message: &str) -> Error {
     Error::Usage(format!(
         "{message}\n\nUsage: pathtracer [OPTIONS] {}\n       pathtracer check SCENE...\n       \
          pathtracer compare [OPTIONS] SCENE\n       pathtracer bench [OPTIONS] [SCENE | OBJ]\n       \
-         pathtracer tradeoff [OPTIONS] SCENE\n\nFor more information, try '--help'.",
+         pathtracer tradeoff [OPTIONS] SCENE\n       pathtracer diff [OPTIONS] PICTURE REFERENCE\n       pathtracer info PICTURE\n\nFor more information, try '--help'.",
         POSITIONALS.join(" ")
     ))
 }

@@ -19,7 +19,7 @@ use std::fmt::Write as _;
 use std::io::{self, Write as _};
 
 /// The exit code if hits or pictures differ that must not.
-const DIFFERENT: u8 = 4;
+pub(super) const DIFFERENT: u8 = 4;
 
 /// Compares; returns the exit code.
 pub(super) fn run(job: &CompareJob) -> anyhow::Result<u8> {

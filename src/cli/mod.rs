@@ -9,14 +9,17 @@ mod check;
 mod compare;
 mod console;
 mod describe;
+mod diff;
 mod event;
 mod file;
 mod findings;
+mod info;
 mod interrupt;
 mod plot_file;
 mod progress;
 mod render;
 mod scaling;
+mod target;
 mod tradeoff;
 
 use crate::error::Error;
@@ -32,6 +35,8 @@ pub fn run(arguments: &[OsString]) -> anyhow::Result<u8> {
         Some(Command::Compare(arguments)) => compare::run(&arguments.resolve()?),
         Some(Command::Bench(arguments)) => bench::run(&arguments.resolve()?),
         Some(Command::Tradeoff(arguments)) => tradeoff::run(&arguments.resolve()?),
+        Some(Command::Diff(arguments)) => diff::run(&arguments),
+        Some(Command::Info { picture }) => info::run(&picture),
         None => render::run(&render.resolve()?),
     }
 }

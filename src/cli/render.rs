@@ -4,10 +4,11 @@ use super::arguments::Job;
 use super::console::{digits, duration, say, with_prefix};
 use super::event::{self, Event, JobRecord, Seconds, Summary, per_second};
 use super::progress::Reporter;
+use super::target::Target;
 use super::{describe, findings, interrupt};
 use crate::error::{Error, Result};
 use crate::film::PictureError;
-use crate::output;
+use crate::output::{self, Provenance};
 use crate::picture::{Destination, Format};
 use crate::render::{Ended, Rendered, in_pool, render};
 use crate::scene;
@@ -22,7 +23,8 @@ const NOISE_MISSED: u8 = 5;
 pub(super) fn run(job: &Job) -> anyhow::Result<u8> {
     // Whatever can be known to fail fails before the work.
     job.settings.check()?;
-    let destination = Destination::new(&job.image)?;
+    let target = Target::new(job)?;
+    let destination = &target.picture;
     let error_bars = job.error_bars.as_deref().map(error_bars).transpose()?;
     interrupt::listen(destination.partial_path().to_path_buf())?;
 
@@ -43,7 +45,7 @@ pub(super) fn run(job: &Job) -> anyhow::Result<u8> {
     }
 
     // The world has all it needs of the meshes.
-    let camera = scene.desc.camera.clone();
+    let (camera, digest) = (scene.desc.camera.clone(), scene.digest);
     drop(scene);
     let reporter = Reporter::new(job);
     let rendered = render(&world, &camera, &job.settings, &reporter);
@@ -52,7 +54,17 @@ pub(super) fn run(job: &Job) -> anyhow::Result<u8> {
     if rendered.film.samples() == 0 {
         return Err(Error::Interrupted.into());
     }
-    let (written, write) = timed(|| output::write(&rendered.film, job.exposure, &destination));
+    let provenance = Provenance {
+        scene: &job.scene,
+        digest,
+        camera: &camera,
+        world: &world,
+        settings: &job.settings,
+        samples: rendered.film.samples(),
+        is_clamped: rendered.counters.clamped > 0,
+        exposure: job.exposure,
+    };
+    let (written, write) = timed(|| target.write(job, &provenance, &rendered));
     written?;
     if let Some(error_bars) = error_bars
         && !output::write_error_bars(&rendered.film, &error_bars)?
@@ -82,7 +94,7 @@ fn error_bars(path: &Path) -> Result<Destination> {
     let destination = Destination::new(path)?;
     match destination.format() {
         Format::Exr => Ok(destination),
-        Format::Png => Err(Error::Usage(format!("error bars need an .exr, not {}", path.display()))),
+        _ => Err(Error::Usage(format!("error bars need an .exr, not {}", path.display()))),
     }
 }
 

@@ -1,9 +1,11 @@
-//! How much light arrives?
+//! How much light arrives, and what is seen?
 
 pub mod caustic;
 mod counters;
+mod features;
 mod numbers;
 mod path;
 
 pub use counters::{Counters, FixedSum};
+pub use features::{FeatureTracer, Features};
 pub use path::PathTracer;

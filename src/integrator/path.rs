@@ -41,9 +41,10 @@ pub(super) enum Chosen {
 
 /// Where a path has arrived.
 #[derive(Clone, Copy)]
-pub(super) struct Surface<'a> {
+pub(super) struct Surface {
     pub(super) at: Interaction,
-    pub(super) material: &'a Material,
+    /// With the colours that it has there.
+    pub(super) material: Material,
     /// Whether lights are aimed at from here.
     aims: bool,
 }
@@ -152,7 +153,7 @@ impl<'a, A: Accelerator> PathTracer<'a, A> {
         path: &mut Path<S>,
         segment: u32,
         counters: &mut Counters,
-    ) -> Option<Surface<'a>> {
+    ) -> Option<Surface> {
         counters.rays += 1;
         let Some(hit) = self.accelerator.intersect(&path.ray) else {
             // Asked only here, since nothing is hit by such a ray.
@@ -174,7 +175,8 @@ impl<'a, A: Accelerator> PathTracer<'a, A> {
             counters.cut_throughput.add(path.throughput.element_sum() / 3.0 * path.share);
             return None;
         }
-        let material = self.world.material(hit.object);
+        let varied = self.world.varied_material(&hit, &at);
+        let material = varied.unwrap_or_else(|| *self.world.material(hit.object));
         let aims = self.light_sampling && !material.is_delta();
         let surface = Surface { at, material, aims };
         if aims {

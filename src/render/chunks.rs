@@ -27,7 +27,17 @@ where
     let Chunks { film, work, .. } = chunks;
     let Work { samples, counters } = work;
     let clamp = settings.clamp;
-    Ok(Rendered { film, samples, counters, clamp, error, ended, build_seconds: 0.0, render_seconds })
+    Ok(Rendered {
+        film,
+        samples,
+        counters,
+        clamp,
+        error,
+        ended,
+        features: None,
+        build_seconds: 0.0,
+        render_seconds,
+    })
 }
 
 /// A render under way.

@@ -4,6 +4,7 @@ use super::Settings;
 use super::cells::Layout;
 use crate::error::{Error, Result};
 use crate::film::Film;
+use crate::integrator::Features;
 use crate::math::Rgb;
 use crate::sampling::SCRAMBLES;
 use std::fs;
@@ -29,7 +30,10 @@ pub fn film_bytes(settings: &Settings) -> u64 {
 
 /// Whether the film fits into the memory that is free now; passes where the system does not say.
 pub(super) fn check(settings: &Settings) -> Result<()> {
-    let needed = film_bytes(settings);
+    let pixels = u64::from(settings.width) * u64::from(settings.height);
+    // The features and the channels that they become.
+    let features = if settings.features { pixels * 2 * size_of::<Features>() as u64 } else { 0 };
+    let needed = film_bytes(settings).saturating_add(features);
     match available_bytes() {
         Some(available) if needed > available => Err(too_large(settings, Some(available))),
         _ => Ok(()),
@@ -38,11 +42,21 @@ pub(super) fn check(settings: &Settings) -> Result<()> {
 
 /// So many zeros a pixel.
 pub(super) fn zeros(settings: &Settings, each: usize) -> Result<Vec<f64>> {
+    filled(settings, each)
+}
+
+/// What is collected in every pixel, before anything is.
+pub(super) fn plane<T: Clone + Default>(settings: &Settings) -> Result<Vec<T>> {
+    filled(settings, 1)
+}
+
+/// So many defaults a pixel.
+fn filled<T: Clone + Default>(settings: &Settings, each: usize) -> Result<Vec<T>> {
     let count = settings.width as usize * settings.height as usize * each;
-    let mut zeros = Vec::new();
-    zeros.try_reserve_exact(count).map_err(|_| too_large(settings, None))?;
-    zeros.resize(count, 0.0);
-    Ok(zeros)
+    let mut filled = Vec::new();
+    filled.try_reserve_exact(count).map_err(|_| too_large(settings, None))?;
+    filled.resize(count, T::default());
+    Ok(filled)
 }
 
 fn too_large(settings: &Settings, available: Option<u64>) -> Error {

@@ -3,6 +3,7 @@
 
 use crate::error::Location;
 use crate::math::{DVec3, Rgb};
+use crate::picture::Decoded;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -15,6 +16,8 @@ pub struct SceneDesc {
     pub camera: CameraDesc,
     /// The sky.
     pub environment: EnvironmentDesc,
+    /// A picture that takes the place of the sky's colours, but not of its strength.
+    pub environment_map: Option<EnvironmentMapDesc>,
     /// The objects in the order of the file.
     pub objects: Vec<ObjectDesc>,
 }
@@ -58,6 +61,26 @@ pub struct EnvironmentDesc {
     pub strength: f64,
 }
 
+/// A picture of the whole sphere: latitude and longitude.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EnvironmentMapDesc {
+    /// Radiance. The middle column is +x, to its right follow -y, -x and +y; the top row is +z.
+    pub picture: PictureDesc,
+    /// Turns it about z, in degrees.
+    pub rotation: f64,
+}
+
+/// A picture that the scene names.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PictureDesc {
+    /// The file that was found.
+    pub file: PathBuf,
+    /// Its content, finite and not negative; all that name the same file share it.
+    pub picture: Arc<Decoded>,
+    /// Whether its values are sRGB-encoded.
+    pub is_encoded: bool,
+}
+
 /// One object.
 #[derive(Clone, Debug)]
 pub struct ObjectDesc {
@@ -69,6 +92,9 @@ pub struct ObjectDesc {
     pub shape: ShapeDesc,
     /// Its material.
     pub material: MaterialDesc,
+    /// Where other materials begin among the triangles of a mesh: the first triangle, ascending, and the material. None of
+    /// them emits.
+    pub faces: Vec<(u32, Arc<MaterialDesc>)>,
 }
 
 /// The shapes of the format. Rotations are angles in degrees about the world's x, then y, then z axis.
@@ -147,6 +173,10 @@ pub struct MeshDesc {
     pub normal_indices: Vec<[u32; 3]>,
     /// Indices into `texcoords`, one entry a triangle, or empty; `[u32::MAX; 3]` where a face has none.
     pub texcoord_indices: Vec<[u32; 3]>,
+    /// Where the materials of the file begin: the first triangle, ascending, and the name.
+    pub materials: Vec<(u32, String)>,
+    /// The names of the files that hold its materials.
+    pub libraries: Vec<String>,
 }
 
 /// A material with its optional name.
@@ -156,6 +186,17 @@ pub struct MaterialDesc {
     pub name: Option<String>,
     /// What it does with light.
     pub kind: MaterialKind,
+    /// Pictures of its colours, which those of `kind` are multiplied by.
+    pub textures: TexturesDesc,
+}
+
+/// The pictures of a material.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct TexturesDesc {
+    /// Of the reflectance; of [`MaterialKind::ClearCoat`] that of the base.
+    pub color: Option<PictureDesc>,
+    /// Of the reflectance of a coat.
+    pub coat_color: Option<PictureDesc>,
 }
 
 /// The materials of the format. Reflectances lie in 0..1.

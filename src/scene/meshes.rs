@@ -2,6 +2,9 @@
 
 use super::desc::MeshDesc;
 use super::diagnostic::{Finding, Report, quote};
+use super::digest::Digest;
+use super::files;
+use super::from_file::Part;
 use super::obj::{self, Failure, Fault};
 use super::yaml::value::Value;
 use crate::error::{Location, Severity};
@@ -14,49 +17,46 @@ pub(crate) struct Meshes {
     folder: PathBuf,
     /// By canonical path; `None` for a file that could not be read, which was reported.
     read: HashMap<PathBuf, Option<Arc<MeshDesc>>>,
+    /// The parts of meshes with materials of their own, by the mesh; `None` after an error.
+    pub(crate) parts: HashMap<*const MeshDesc, Option<Vec<Part>>>,
+    /// Of every file that was read, in the order in which the scene names them first.
+    digests: Vec<Digest>,
 }
 
 impl Meshes {
     /// The meshes named in the scene file `file`.
     pub(crate) fn beside(file: &Path) -> Meshes {
         let folder = file.parent().unwrap_or(Path::new("")).to_path_buf();
-        Meshes { folder, read: HashMap::new() }
+        Meshes { folder, read: HashMap::new(), parts: HashMap::new(), digests: Vec::new() }
+    }
+
+    /// Of all files that were read.
+    pub(crate) fn digests(&self) -> &[Digest] {
+        &self.digests
+    }
+
+    /// Adds the content of another file that was read.
+    pub(crate) fn add_digest(&mut self, bytes: &[u8]) {
+        self.digests.push(Digest::of(bytes));
     }
 
     /// The mesh that the `Filepath` in `value` names, and the file that was found.
     pub(crate) fn get(&mut self, value: Value<'_>, report: &mut Report) -> Option<(PathBuf, Arc<MeshDesc>)> {
         let name = value.text("the name of an OBJ file", report)?;
-        let path = self.find(name, value, report)?;
+        let path = files::find(&self.folder, name, &files::MESH, value, report)?;
         let key = path.canonicalize().unwrap_or_else(|_| path.clone());
         let mesh = match self.read.get(&key) {
             Some(mesh) => mesh.clone(),
             None => {
-                let mesh = read(&path, value, report).map(Arc::new);
+                let mesh = read(&path, value, report).map(|(mesh, digest)| {
+                    self.digests.push(digest);
+                    Arc::new(mesh)
+                });
                 self.read.insert(key, mesh.clone());
                 mesh
             }
         };
         Some((path, mesh?))
-    }
-
-    /// The file called `name`: in the scene's folder, else in the working directory.
-    fn find(&self, name: &str, value: Value<'_>, report: &mut Report) -> Option<PathBuf> {
-        let mut places = vec![self.folder.join(name)];
-        if !places.contains(&PathBuf::from(name)) {
-            places.push(PathBuf::from(name));
-        }
-        if let Some(found) = places.iter().find(|path| path.is_file()) {
-            return Some(found.clone());
-        }
-        if let Some(other) = places.iter().find(|path| path.exists()) {
-            let what = if other.is_dir() { "a folder" } else { "no regular file" };
-            value.error(&format!("must be an OBJ file, but {} is {what}", shown(other)), None, report);
-            return None;
-        }
-        let tried: Vec<String> = places.iter().map(|path| shown(path)).collect();
-        let help = "a mesh is looked for beside the scene file, then in the working directory".to_owned();
-        value.error(&format!("names no file: tried {}", tried.join(" and ")), Some(help), report);
-        None
     }
 }
 
@@ -65,7 +65,7 @@ fn shown(path: &Path) -> String {
 }
 
 /// Reads a mesh and reports what is wrong with it.
-fn read(path: &Path, value: Value<'_>, report: &mut Report) -> Option<MeshDesc> {
+fn read(path: &Path, value: Value<'_>, report: &mut Report) -> Option<(MeshDesc, Digest)> {
     let loaded = match obj::load(path) {
         Ok(loaded) => loaded,
         Err(Failure::Unreadable(reason)) => {
@@ -99,7 +99,7 @@ fn read(path: &Path, value: Value<'_>, report: &mut Report) -> Option<MeshDesc> 
         );
         warn(text, value, report);
     }
-    Some(loaded.mesh)
+    Some((loaded.mesh, loaded.digest))
 }
 
 fn warn(text: String, value: Value<'_>, report: &mut Report) {
@@ -114,7 +114,7 @@ fn warn(text: String, value: Value<'_>, report: &mut Report) {
 }
 
 /// Reports an error in the mesh file, with the place there and who named the file.
-fn report_fault(fault: Fault, path: &Path, value: Value<'_>, report: &mut Report) {
+pub(crate) fn report_fault(fault: Fault, path: &Path, value: Value<'_>, report: &mut Report) {
     let location = Location { file: path.to_path_buf(), line: fault.line, column: fault.column };
     report.push(Finding {
         severity: Severity::Error,

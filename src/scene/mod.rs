@@ -1,21 +1,31 @@
 //! What the scene file says: YAML text becomes a [`desc::SceneDesc`] with its meshes, or every mistake in it with
 //! its place.
 //!
-//! The way: `yaml` parses the text into a tree of values, `read` gives the keys their meaning, `meshes` and `obj`
-//! read what the scene names, `diagnostic` collects what is wrong and `source` knows the lines.
+//! The way: `yaml` parses the text into a tree of values, `read` gives the keys their meaning, `meshes` `obj` and `pictures` read
+//! what the scene names, `diagnostic` collects what is wrong and `source` knows the lines.
 
 pub mod desc;
 
 mod diagnostic;
+mod digest;
+mod files;
+mod from_file;
 mod meshes;
+mod mtl;
 mod obj;
+mod pictures;
 mod read;
 mod source;
 mod yaml;
 
+pub use digest::Digest;
+
 use crate::error::{Diagnostic, Error, Location, Result, Severity};
 use desc::{MeshDesc, SceneDesc};
 use diagnostic::Report;
+use meshes::Meshes;
+use pictures::Pictures;
+use read::Context;
 use source::Source;
 use std::fs::File;
 use std::io::{self, Read};
@@ -28,6 +38,8 @@ pub struct Scene {
     pub desc: SceneDesc,
     /// What the user should know, in the order of the file.
     pub warnings: Vec<Diagnostic>,
+    /// Of the file and all that it names.
+    pub digest: Digest,
 }
 
 /// Reads the scene file at `path` and the meshes that it names.
@@ -98,11 +110,16 @@ fn read_text(text: &str, file: &Path) -> Result<Scene> {
     let source = Source::new(file, text);
     let root = yaml::parse(&source).map_err(|diagnostic| Error::Scene(vec![*diagnostic]))?;
     let mut report = Report::default();
-    let desc = read::read(&root, file, &source, &mut report);
+    let (mut meshes, mut pictures) = (Meshes::beside(file), Pictures::beside(file));
+    let mut context =
+        Context { source: &source, meshes: &mut meshes, pictures: &mut pictures, report: &mut report };
+    let desc = read::read(&root, file, &mut context);
+    let text_digest = [Digest::of(text.as_bytes())];
+    let digest = Digest::join(&[&text_digest, meshes.digests(), pictures.digests()].concat());
     let renderable = report.is_renderable();
     let diagnostics = report.into_diagnostics(&source);
     match desc {
-        Some(desc) if renderable => Ok(Scene { desc, warnings: diagnostics }),
+        Some(desc) if renderable => Ok(Scene { desc, warnings: diagnostics, digest }),
         _ => Err(Error::Scene(diagnostics)),
     }
 }

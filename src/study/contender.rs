@@ -5,7 +5,7 @@ use super::rounds::{Spread, interleaved, timed};
 use crate::accel::bvh::Bvh;
 #[cfg(feature = "embree")]
 use crate::accel::embree::Embree;
-use crate::accel::{Accelerator, BuildOptions, Isa, Precision};
+use crate::accel::{Accelerator, BuildOptions, Isa, Precision, used_isa};
 use crate::error::{Error, Result};
 use crate::geometry::Geometry;
 use crate::render::AccelKind;
@@ -36,19 +36,12 @@ impl Kind {
 
     /// The accelerator's name.
     pub fn accel_name(self) -> &'static str {
-        match self.accel {
-            AccelKind::Embree => "embree",
-            AccelKind::Native => "native",
-        }
+        self.accel.name()
     }
 
     /// The precision's name.
     pub fn precision_name(self) -> &'static str {
-        match self.precision {
-            Precision::Exact => "exact",
-            Precision::Robust => "robust",
-            Precision::Fast => "fast",
-        }
+        self.precision.name()
     }
 
     fn build(self, geometry: &Geometry, isa: Option<Isa>) -> Result<Contender<'_>> {
@@ -223,11 +216,5 @@ fn rates(contenders: &[Contender<'_>], sets: &[RaySet], rounds: usize) -> Rates 
 
 /// The instruction set that is used if `isa` is asked for.
 pub fn instructions(isa: Option<Isa>) -> Result<&'static str> {
-    let empty = Geometry::new(Vec::new(), &[]);
-    let used = Bvh::build(&empty, &build_options(Precision::Exact, isa))?.isa();
-    Ok(match used {
-        Isa::Sse2 => "sse2",
-        Isa::Avx2 => "avx2",
-        Isa::Avx512 => "avx512",
-    })
+    used_isa(isa).map(Isa::name)
 }

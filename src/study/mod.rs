@@ -2,6 +2,7 @@
 //!
 //! - [`compare`]: both accelerators on the same rays of one scene, hits compared bit by bit.
 //! - [`bench`](mod@bench): both accelerators at all precisions on meshes of growing size.
+//! - [`difference`]: how far two pictures are from each other, by the [`metrics`].
 //! - [`scaling`]: how the cost of a sample grows with threads, pixels, triangles and lights.
 //! - [`tradeoff`]: what every knob of a render costs in time and gains in accuracy.
 //!
@@ -14,6 +15,7 @@
 pub mod bench;
 pub mod compare;
 pub mod contender;
+pub mod difference;
 pub mod leaks;
 pub mod machine;
 pub mod meshes;

@@ -7,6 +7,7 @@ use super::place;
 use super::requires::Requires;
 use super::shading::NormalsBuilder;
 use super::sky::{Sky, SkyKind};
+use super::varied::VariedBuilder;
 use crate::error::{Diagnostic, Error, Result, Severity};
 use crate::geometry::{Ball, Cuboid, Geometry, MeshPart, Rectangle, Shape, Solid};
 use crate::material::{ClearCoat, Diffuse, Material, Reflective, Refractive};
@@ -37,11 +38,11 @@ impl World {
         if !problems.is_empty() {
             return Err(Error::Scene(problems));
         }
-        let Parts { solids, meshes, shared, normals } = parts;
+        let Parts { solids, meshes, shared, normals, varied } = parts;
         let geometry = Geometry::with_instances(solids, meshes, shared.spaces);
         let emission: Vec<Rgb> =
             desc.objects.iter().map(|object| emission_of(&object.material.kind)).collect();
-        let sky = Sky::new(&desc.environment);
+        let sky = Sky::new(&desc.environment, desc.environment_map.as_ref());
         let lights = Lights::new(&geometry, &emission, &sky);
         let mut world = World {
             geometry,
@@ -52,6 +53,7 @@ impl World {
             materials: desc.objects.iter().map(|object| material_of(&object.material.kind)).collect(),
             emission,
             normals: normals.finish(),
+            varied: varied.finish(),
         };
         world.requires = Requires::of(desc, &world);
         Ok(world)
@@ -91,6 +93,7 @@ struct Parts {
     meshes: Vec<MeshPart>,
     shared: SharedMeshes,
     normals: NormalsBuilder,
+    varied: VariedBuilder,
 }
 
 impl Parts {
@@ -118,6 +121,7 @@ impl Parts {
             ShapeDesc::TriangleMesh { mesh, scale, rotation, axes, smooth, .. } => {
                 let placement = Placement::new(rotation_matrix(*rotation), *axes, *scale, at);
                 let space = self.shared.space_of(object);
+                self.varied.add(index, object, space.is_none().then_some(&placement));
                 if *smooth {
                     self.normals.add(index, mesh, &placement, space.is_some());
                 }
@@ -128,6 +132,9 @@ impl Parts {
                 (Shape::Instance(instance), bounds, bounds.extent())
             }
         };
+        if !matches!(shape, Shape::Instance(_)) {
+            self.varied.add(index, object, None);
+        }
         self.solids.push(Solid { object: index, shape });
         (bounds, size)
     }
@@ -163,7 +170,8 @@ fn emission_of(kind: &MaterialKind) -> Rgb {
     }
 }
 
-fn material_of(kind: &MaterialKind) -> Material {
+/// The material with its colours as they are given.
+pub(super) fn material_of(kind: &MaterialKind) -> Material {
     match *kind {
         MaterialKind::Diffuse { color, .. } => Material::Diffuse(Diffuse { color }),
         MaterialKind::Reflective { color, specularity } => {
@@ -206,6 +214,7 @@ impl Requires {
         branches: 1,
         lens: false,
         shading_normals: false,
+        textures: 0,
         refraction: false,
     };
 }

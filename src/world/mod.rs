@@ -7,6 +7,7 @@
 
 mod camera;
 mod compile;
+mod environment_map;
 mod guards;
 pub mod light;
 mod meshes;
@@ -15,6 +16,8 @@ mod requires;
 mod shading;
 mod sky;
 mod smooth_balls;
+mod texture;
+mod varied;
 
 pub use camera::Camera;
 pub use requires::Requires;
@@ -27,6 +30,7 @@ use crate::math::{DVec3, Rgb};
 use crate::scene::desc::CameraDesc;
 use light::{Lights, Receiver};
 use shading::ShadingNormals;
+use varied::Varied;
 
 /// A scene, ready to be rendered.
 #[derive(Clone, Debug)]
@@ -47,6 +51,8 @@ pub struct World {
     emission: Vec<Rgb>,
     /// Normals of the mesh files, where they are used.
     normals: ShadingNormals,
+    /// Materials that change over their object.
+    varied: Varied,
 }
 
 /// Where a path meets a surface.
@@ -69,6 +75,12 @@ impl World {
     /// The material of an object.
     pub fn material(&self, object: u32) -> &Material {
         &self.materials[object as usize]
+    }
+
+    /// The material at a hit, where it changes over its object; else it is [`World::material`].
+    #[inline]
+    pub fn varied_material(&self, hit: &Hit, at: &Interaction) -> Option<Material> {
+        self.varied.material(hit, at.receiver.point.normal, self.material(hit.object))
     }
 
     /// The radiance that an object emits.

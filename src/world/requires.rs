@@ -33,13 +33,16 @@ pub struct Requires {
     pub lens: bool,
     /// Whether normals of mesh files are kept.
     pub shading_normals: bool,
+    /// Pictures that are colours of surfaces.
+    pub textures: usize,
     /// Whether anything refracts.
     pub refraction: bool,
 }
 
 impl Requires {
     pub(super) fn of(desc: &SceneDesc, world: &World) -> Requires {
-        let diffuse = world.materials.iter().any(|material| !material.is_delta());
+        let materials = || world.materials.iter().chain(world.varied.face_materials());
+        let diffuse = materials().any(|material| !material.is_delta());
         Requires {
             triangles: world.geometry.triangle_count(),
             instances: world
@@ -59,7 +62,8 @@ impl Requires {
                 ApertureDesc::DepthOfField(size) | ApertureDesc::Radius(size) => size > 0.0,
             },
             shading_normals: !world.normals.is_empty(),
-            refraction: world.materials.iter().any(|material| matches!(material, Material::Refractive(_))),
+            textures: world.varied.textures(),
+            refraction: materials().any(|material| matches!(material, Material::Refractive(_))),
         }
     }
 }
@@ -88,6 +92,7 @@ impl fmt::Display for Requires {
             SkyKind::Black => "no sky".into(),
             SkyKind::Constant => "a constant sky".into(),
             SkyKind::Gradient => "a gradient sky".into(),
+            SkyKind::Map => "an environment map".into(),
         });
         let mut option = |on: bool, name: &str| {
             if on {
@@ -99,6 +104,7 @@ impl fmt::Display for Requires {
         option(self.branches > 1, &format!("{} branches of a path", self.branches));
         option(self.lens, "a lens");
         option(self.shading_normals, "shading normals");
+        option(self.textures > 0, &counted(self.textures, "texture"));
         option(self.refraction, "refraction");
         write!(f, "{}", parts.join(", "))
     }
@@ -114,7 +120,7 @@ fn branches(world: &World) -> u32 {
         _ if !plain || world.lights.count() == 0 => 1,
         SkyKind::Black => 4,
         SkyKind::Constant => 2,
-        SkyKind::Gradient => 1,
+        SkyKind::Gradient | SkyKind::Map => 1,
     }
 }
 

@@ -1,8 +1,9 @@
-//! The gradient sky: its radiance, and how to choose a direction towards it.
+//! The sky: its radiance, and how to choose a direction towards it.
 
+use super::environment_map::EnvironmentMap;
 use crate::math::elementary::{inverse_fifth_root, sin_cos_turns};
 use crate::math::{DVec3, Rgb, luminance};
-use crate::scene::desc::EnvironmentDesc;
+use crate::scene::desc::{EnvironmentDesc, EnvironmentMapDesc};
 
 /// What a sky asks of the renderer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
@@ -14,6 +15,15 @@ pub enum SkyKind {
     Constant,
     /// Varies with the height.
     Gradient,
+    /// A picture.
+    Map,
+}
+
+impl SkyKind {
+    /// Whether it pays to choose directions towards it.
+    pub fn is_sampled(self) -> bool {
+        matches!(self, SkyKind::Gradient | SkyKind::Map)
+    }
 }
 
 /// Radiance by the z component of the direction, with a tabulated distribution to sample it.
@@ -27,14 +37,33 @@ pub struct Sky {
     cumulative: Vec<f64>,
     /// The step in which each of [`STEPS`] equal parts of the cumulative probability begins.
     guide: Vec<u16>,
+    /// There if a picture, which is not constant.
+    map: Option<Box<EnvironmentMap>>,
 }
 
 /// Steps of z in the table.
 const STEPS: usize = 256;
 
 impl Sky {
-    /// The sky of a scene.
-    pub(super) fn new(desc: &EnvironmentDesc) -> Sky {
+    /// The sky of a scene; a picture takes the place of the colours.
+    pub(super) fn new(desc: &EnvironmentDesc, map: Option<&EnvironmentMapDesc>) -> Sky {
+        let Some(map) = map else { return Sky::of_colors(desc) };
+        let map = EnvironmentMap::new(map, desc.strength);
+        match map.constant() {
+            Some(color) => {
+                Sky::of_colors(&EnvironmentDesc { sky: color, horizon: color, ground: color, strength: 1.0 })
+            }
+            None => Sky { kind: SkyKind::Map, map: Some(Box::new(map)), ..Sky::black() },
+        }
+    }
+
+    fn black() -> Sky {
+        let [sky, horizon, ground] = [Rgb::ZERO; 3];
+        let (cumulative, guide) = (Vec::new(), Vec::new());
+        Sky { kind: SkyKind::Black, sky, horizon, ground, cumulative, guide, map: None }
+    }
+
+    fn of_colors(desc: &EnvironmentDesc) -> Sky {
         let [sky, horizon, ground] = [desc.sky, desc.horizon, desc.ground].map(|color| color * desc.strength);
         let kind = if [sky, horizon, ground] == [Rgb::ZERO; 3] {
             SkyKind::Black
@@ -43,7 +72,7 @@ impl Sky {
         } else {
             SkyKind::Gradient
         };
-        let mut result = Sky { kind, sky, horizon, ground, cumulative: Vec::new(), guide: Vec::new() };
+        let mut result = Sky { kind, sky, horizon, ground, ..Sky::black() };
         if kind == SkyKind::Gradient {
             result.cumulative = result.tabulate();
             result.guide = (0..STEPS).map(|part| result.step_of(part as f64 / STEPS as f64) as u16).collect();
@@ -63,6 +92,7 @@ impl Sky {
             SkyKind::Black => Rgb::ZERO,
             SkyKind::Constant => self.horizon,
             SkyKind::Gradient => self.gradient(d.z),
+            SkyKind::Map => self.map.as_ref().map_or(Rgb::ZERO, |map| map.radiance(d)),
         }
     }
 
@@ -73,8 +103,12 @@ impl Sky {
         self.horizon + (end - self.horizon) * share
     }
 
-    /// A unit direction towards the sky with its density per solid angle, from `u` in [0, 1)^2. Only for gradients.
+    /// A unit direction towards the sky with its density per solid angle, from `u` in [0, 1)^2. Only for kinds that
+    /// are sampled.
     pub fn sample(&self, u: [f64; 2]) -> (DVec3, f64) {
+        if let Some(map) = &self.map {
+            return map.sample(u);
+        }
         let mut step = usize::from(self.guide[(u[0] * STEPS as f64) as usize]);
         while step + 1 < STEPS && self.cumulative[step + 1] <= u[0] {
             step += 1;
@@ -91,8 +125,11 @@ impl Sky {
         self.cumulative.partition_point(|&c| c <= probability).clamp(1, STEPS) - 1
     }
 
-    /// Density per solid angle with which [`Sky::sample`] chooses `d`; zero unless a gradient.
+    /// Density per solid angle with which [`Sky::sample`] chooses `d`; zero unless it is sampled.
     pub fn pdf(&self, d: DVec3) -> f64 {
+        if let Some(map) = &self.map {
+            return map.pdf(d);
+        }
         if self.kind != SkyKind::Gradient {
             return 0.0;
         }

@@ -2,11 +2,14 @@ mod bench;
 mod budget;
 mod check;
 mod compare;
+mod diff;
+mod features;
 mod findings;
 mod information;
 mod interrupt;
 mod json;
 mod pictures;
+mod provenance;
 mod tradeoff;
 mod usage;
 

@@ -83,7 +83,9 @@ fn an_unknown_name_is_answered_by_the_known_ones() {
 
 #[test]
 fn an_unknown_extension_is_refused_before_the_scene_is_read() {
-    Folder::new().run("missing.yaml 8 6 1 3 a.jpg").fails(2, "known are .png, .exr");
+    Folder::new()
+        .run("missing.yaml 8 6 1 3 a.gif")
+        .fails(2, "known are .png, .exr, .tif, .tiff, .hdr, .jpg, .jpeg");
 }
 
 #[cfg(not(feature = "embree"))]

@@ -1,8 +1,14 @@
 //! The list of what the generator makes.
 
-use super::{blossom_tree, board, knight, spiral_scene};
+use super::{blossom_tree, board, gallery, knight, spiral_scene};
+use pathtracer::picture::Picture;
 
-/// Every generated file: its path below the project's root and its content.
+/// Every generated picture: its path below the project's root and its content.
+pub(crate) fn pictures() -> Vec<(&'static str, Picture)> {
+    vec![("objects/wood.png", gallery::wood()), ("objects/sky.exr", gallery::sky())]
+}
+
+/// Every generated text: its path below the project's root and its content.
 pub(crate) fn all() -> Vec<(&'static str, String)> {
     let tree = blossom_tree::grow();
     vec![
@@ -18,6 +24,8 @@ pub(crate) fn all() -> Vec<(&'static str, String)> {
             "objects/knight.obj",
             knight::piece().to_obj("A knight of chess, 2 units high, looking along +x", 4),
         ),
+        ("objects/lantern.obj", gallery::lantern()),
+        ("objects/lantern.mtl", gallery::lantern_materials()),
         ("objects/tree_bark.obj", tree.bark.to_obj("A tree in blossom: trunk, boughs and twigs", 4)),
         ("objects/tree_blossoms.obj", tree.blossoms.to_obj("A tree in blossom: the flowers", 3)),
         ("objects/tree_leaves.obj", tree.leaves.to_obj("A tree in blossom: the young leaves", 3)),

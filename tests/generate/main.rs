@@ -1,10 +1,11 @@
-//! Writes the meshes under `objects/` and the long scene under `scenes/`: `cargo run --release --example generate`.
+//! Writes the meshes and pictures under `objects/` and the long scene under `scenes/`: `cargo run --release --example generate`.
 //!
 //! What it writes depends on nothing but its own code, so that the same files come out on every machine.
 
 mod blossom_tree;
 mod board;
 mod files;
+mod gallery;
 mod implicit;
 mod knight;
 mod lathe;
@@ -13,6 +14,7 @@ mod random;
 mod spiral_scene;
 mod tube;
 
+use pathtracer::picture::Destination;
 use std::path::Path;
 
 fn main() -> std::io::Result<()> {
@@ -20,6 +22,11 @@ fn main() -> std::io::Result<()> {
     for (path, content) in files::all() {
         println!("{path}: {} bytes", content.len());
         std::fs::write(root.join(path), content)?;
+    }
+    for (path, picture) in files::pictures() {
+        println!("{path}: {} x {} pixels", picture.width, picture.height);
+        let place = Destination::new(&root.join(path)).and_then(|place| place.with_depth(picture.depth()));
+        place.and_then(|place| place.write_picture(&picture)).map_err(std::io::Error::other)?;
     }
     Ok(())
 }

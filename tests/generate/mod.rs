@@ -3,6 +3,7 @@
 mod blossom_tree;
 mod board;
 pub(crate) mod files;
+mod gallery;
 mod implicit;
 mod knight;
 mod lathe;

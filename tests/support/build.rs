@@ -7,7 +7,7 @@ use pathtracer::math::{DVec3, Rgb};
 use pathtracer::sampling::{Independent, Sampler};
 use pathtracer::scene::desc::{
     ApertureDesc, Axes, CameraDesc, EnvironmentDesc, MaterialDesc, MaterialKind, MeshDesc, ObjectDesc,
-    SceneDesc, ShapeDesc,
+    SceneDesc, ShapeDesc, TexturesDesc,
 };
 use pathtracer::world::World;
 use rayon::prelude::*;
@@ -72,7 +72,8 @@ pub(crate) fn scene(eye: DVec3, target: DVec3, objects: Vec<(ShapeDesc, Material
         name: None,
         location: location.clone(),
         shape,
-        material: MaterialDesc { name: None, kind },
+        material: MaterialDesc { name: None, kind, textures: TexturesDesc::default() },
+        faces: Vec::new(),
     };
     SceneDesc {
         file: "scene.yaml".into(),
@@ -84,6 +85,7 @@ pub(crate) fn scene(eye: DVec3, target: DVec3, objects: Vec<(ShapeDesc, Material
             aperture: ApertureDesc::DepthOfField(0.0),
             angle: 0.0,
         },
+        environment_map: None,
         environment: sky(0.0),
         objects: objects.into_iter().map(object).collect(),
     }

@@ -1,25 +1,45 @@
 //! Values of options: names in tables, numbers in ranges.
 
 use crate::accel::{BvhQuality, Isa, Precision};
-use crate::render::{AccelKind, MIN_TIME};
+use crate::picture::Depth;
+use crate::render::{AccelKind, FeatureKind, MIN_TIME};
 use crate::sampling::SamplerKind;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use std::time::Duration;
 
 /// The names of the accelerators.
 pub(in crate::cli) const ACCELS: [(&str, AccelKind); 2] =
-    [("embree", AccelKind::Embree), ("native", AccelKind::Native)];
+    [(AccelKind::Embree.name(), AccelKind::Embree), (AccelKind::Native.name(), AccelKind::Native)];
 /// The names of the precisions.
-pub(in crate::cli) const PRECISIONS: [(&str, Precision); 3] =
-    [("exact", Precision::Exact), ("robust", Precision::Robust), ("fast", Precision::Fast)];
+pub(in crate::cli) const PRECISIONS: [(&str, Precision); 3] = [
+    (Precision::Exact.name(), Precision::Exact),
+    (Precision::Robust.name(), Precision::Robust),
+    (Precision::Fast.name(), Precision::Fast),
+];
 /// The names of the qualities of trees.
-pub(in crate::cli) const BVHS: [(&str, BvhQuality); 3] =
-    [("fast", BvhQuality::Fast), ("default", BvhQuality::Default), ("quality", BvhQuality::Quality)];
+pub(in crate::cli) const BVHS: [(&str, BvhQuality); 3] = [
+    (BvhQuality::Fast.name(), BvhQuality::Fast),
+    (BvhQuality::Default.name(), BvhQuality::Default),
+    (BvhQuality::Quality.name(), BvhQuality::Quality),
+];
 /// The names of the instruction sets.
 pub(in crate::cli) const ISAS: [(&str, Isa); 3] =
-    [("sse2", Isa::Sse2), ("avx2", Isa::Avx2), ("avx512", Isa::Avx512)];
+    [(Isa::Sse2.name(), Isa::Sse2), (Isa::Avx2.name(), Isa::Avx2), (Isa::Avx512.name(), Isa::Avx512)];
 pub(super) const SAMPLERS: [(&str, SamplerKind); 2] =
     [("sobol", SamplerKind::Sobol), ("independent", SamplerKind::Independent)];
+pub(super) const DEPTHS: [(&str, Depth); 4] = [
+    (Depth::Eight.name(), Depth::Eight),
+    (Depth::Sixteen.name(), Depth::Sixteen),
+    (Depth::Half.name(), Depth::Half),
+    (Depth::Float.name(), Depth::Float),
+];
+pub(super) const FEATURES: [(&str, FeatureKind); 5] = [
+    (FeatureKind::Albedo.name(), FeatureKind::Albedo),
+    (FeatureKind::Normal.name(), FeatureKind::Normal),
+    (FeatureKind::Depth.name(), FeatureKind::Depth),
+    (FeatureKind::Position.name(), FeatureKind::Position),
+    (FeatureKind::Object.name(), FeatureKind::Object),
+];
 pub(super) const SWITCH: [(&str, bool); 2] = [("on", true), ("off", false)];
 
 /// The name of a value in one of the tables above.

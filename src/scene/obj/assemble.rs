@@ -5,6 +5,7 @@ use super::piece::{Piece, Run};
 use super::polygon::Splitter;
 use crate::math::DVec3;
 use crate::scene::desc::MeshDesc;
+use crate::scene::digest::Digest;
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
@@ -13,7 +14,7 @@ use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 const NO_INDICES: [u32; 3] = [u32::MAX; 3];
 
 /// Joins the pieces, in their order. `None` if a face names something that does not exist.
-pub(super) fn assemble(mut pieces: Vec<Piece>) -> Option<Loaded> {
+pub(super) fn assemble(mut pieces: Vec<Piece>, digest: Digest) -> Option<Loaded> {
     let lengths = pieces.iter().map(|p| [p.positions.len(), p.texcoords.len(), p.normals.len()]).collect();
     let (before, total) = running_sums(lengths);
     let mut mesh = MeshDesc {
@@ -22,6 +23,7 @@ pub(super) fn assemble(mut pieces: Vec<Piece>) -> Option<Loaded> {
         normals: join(pieces.iter_mut().map(|piece| std::mem::take(&mut piece.normals)).collect()),
         ..MeshDesc::default()
     };
+    let libraries = pieces.iter_mut().flat_map(|piece| std::mem::take(&mut piece.libraries)).collect();
     let mut faces = Faces::room_for(&pieces);
     let outputs = faces.split(&pieces);
     let builders = pieces.into_par_iter().zip(outputs).zip(before).map(|((mut piece, output), before)| {
@@ -30,13 +32,38 @@ pub(super) fn assemble(mut pieces: Vec<Piece>) -> Option<Loaded> {
     });
     let made: Vec<Made> = builders.collect::<Option<_>>()?;
     faces.close_gaps(&made);
+    mesh.materials = materials(&made);
+    mesh.libraries = libraries;
     drop_unused(&mut mesh.positions, &mut faces.triangles);
     drop_unused(&mut mesh.texcoords, &mut faces.texcoords);
     drop_unused(&mut mesh.normals, &mut faces.normals);
     (mesh.triangles, mesh.texcoord_indices, mesh.normal_indices) =
         (faces.triangles, faces.texcoords, faces.normals);
     let sum = |count: fn(&Made) -> usize| made.iter().map(count).sum();
-    Some(Loaded { mesh, dropped: sum(|made| made.dropped), fanned: sum(|made| made.fanned) })
+    Some(Loaded { mesh, digest, dropped: sum(|made| made.dropped), fanned: sum(|made| made.fanned) })
+}
+
+/// Where materials begin, by the triangles that were made.
+fn materials(made: &[Made]) -> Vec<(u32, String)> {
+    let mut before = 0;
+    let mut all: Vec<(u32, String)> = Vec::new();
+    for made in made {
+        for (triangle, name) in &made.materials {
+            let start = (before + triangle) as u32;
+            // One without triangles is none.
+            if all.last().is_some_and(|(last, _)| *last == start) {
+                all.pop();
+            }
+            if all.last().is_none_or(|(_, last)| last != name) {
+                all.push((start, name.clone()));
+            }
+        }
+        before += made.triangles;
+    }
+    if all.last().is_some_and(|(last, _)| *last == before as u32) {
+        all.pop();
+    }
+    all
 }
 
 /// The sums of the counts before each entry, and of all.
@@ -165,6 +192,8 @@ struct Made {
     dropped: usize,
     /// Concave faces split as if they were convex.
     fanned: usize,
+    /// Where materials begin: the triangle in the piece, and the name.
+    materials: Vec<(usize, String)>,
 }
 
 /// Makes the triangles of a piece.
@@ -181,7 +210,11 @@ impl Builder<'_> {
         let mut splitter = Splitter::default();
         // Where the corners of the next face start in each list of the piece.
         let mut starts = [0; 3];
-        for run in &self.piece.runs {
+        let mut materials = self.piece.materials.iter().peekable();
+        for (index, run) in self.piece.runs.iter().enumerate() {
+            while let Some((_, name)) = materials.next_if(|(first, _)| *first <= index) {
+                self.made.materials.push((self.made.triangles, name.clone()));
+            }
             let arity = run.arity as usize;
             let steps =
                 [arity, if run.form.texcoords { arity } else { 0 }, if run.form.normals { arity } else { 0 }];
@@ -192,6 +225,7 @@ impl Builder<'_> {
                 }
             }
         }
+        self.made.materials.extend(materials.map(|(_, name)| (self.made.triangles, name.clone())));
         self.made.room = self.output.triangles.len();
         self.made
     }

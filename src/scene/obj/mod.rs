@@ -18,6 +18,7 @@ mod statement;
 mod survey;
 
 use super::desc::MeshDesc;
+use super::digest::Digest;
 use cuts::Cuts;
 use piece::Piece;
 use rayon::prelude::*;
@@ -32,10 +33,12 @@ use survey::Survey;
 const MAX_BYTES: u64 = 4 << 30;
 
 /// A mesh as read.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(crate) struct Loaded {
     /// The mesh, which may be empty.
     pub(crate) mesh: MeshDesc,
+    /// Of the file.
+    pub(crate) digest: Digest,
     /// Faces that were left out because all their triangles have no area.
     pub(crate) dropped: usize,
     /// Concave faces with so many corners that they were split as if they were convex.
@@ -70,9 +73,14 @@ pub(crate) fn load(path: &Path) -> Result<Loaded, Failure> {
         return Err(Failure::Unreadable(format!("it is larger than {} GiB", MAX_BYTES >> 30)));
     }
     let cuts = Cuts::find(&file, length)?;
-    let parse = |buffer: &mut Vec<u8>, piece| Piece::parse(cuts.read(piece, buffer).ok()?);
-    let pieces = (0..cuts.pieces()).into_par_iter().map_init(Vec::new, parse).collect::<Option<Vec<Piece>>>();
-    pieces.and_then(assemble::assemble).ok_or_else(|| explain(&cuts))
+    let parse = |buffer: &mut Vec<u8>, piece| {
+        let bytes = cuts.read(piece, buffer).ok()?;
+        Some((Digest::of(bytes), Piece::parse(bytes)?))
+    };
+    let pieces = (0..cuts.pieces()).into_par_iter().map_init(Vec::new, parse);
+    let pieces = pieces.collect::<Option<(Vec<Digest>, Vec<Piece>)>>();
+    let loaded = pieces.and_then(|(digests, pieces)| assemble::assemble(pieces, Digest::join(&digests)));
+    loaded.ok_or_else(|| explain(&cuts))
 }
 
 /// Why a file was not read.

@@ -31,6 +31,10 @@ pub(super) struct Piece {
     pub(super) corners: [Vec<u32>; 3],
     /// The faces.
     pub(super) runs: Vec<Run>,
+    /// Where materials begin: the run, and the name behind `usemtl`.
+    pub(super) materials: Vec<(usize, String)>,
+    /// The names behind `mtllib`.
+    pub(super) libraries: Vec<String>,
 }
 
 impl Piece {
@@ -64,11 +68,14 @@ impl Piece {
                     code(index, counts[kind]).ok_or_else(String::new)
                 };
                 let (arity, form) = statement::face(at, words, code, &mut self.corners)?;
+                let begins = self.materials.last().is_some_and(|&(run, _)| run == self.runs.len());
                 match self.runs.last_mut() {
-                    Some(run) if (run.arity, run.form) == (arity, form) => run.faces += 1,
+                    Some(run) if !begins && (run.arity, run.form) == (arity, form) => run.faces += 1,
                     _ => self.runs.push(Run { faces: 1, arity, form }),
                 }
             }
+            Some((_, b"usemtl")) => self.materials.push((self.runs.len(), rest_of(words))),
+            Some((_, b"mtllib")) => self.libraries.push(rest_of(words)),
             _ => {}
         }
         Ok(())
@@ -102,6 +109,12 @@ impl Piece {
         }
         Some(())
     }
+}
+
+/// The words that are left, as one text: names may hold blanks.
+fn rest_of(words: Words<'_>) -> String {
+    let words: Vec<&[u8]> = words.map(|(_, word)| word).collect();
+    String::from_utf8_lossy(&words.join(&b' ')).into_owned()
 }
 
 /// The code of an index, of which `count` came before in the piece.

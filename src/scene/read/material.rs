@@ -1,11 +1,10 @@
 //! The `Material` section of an object.
 
-use super::{MOST_RADIANCE, PICTURES};
+use super::{Context, MOST_RADIANCE, picture};
 use crate::math::Rgb;
-use crate::scene::desc::{MaterialDesc, MaterialKind};
+use crate::scene::desc::{MaterialDesc, MaterialKind, PictureDesc, TexturesDesc};
 use crate::scene::diagnostic::Report;
 use crate::scene::yaml::fields::{Fields, Section};
-use crate::scene::yaml::node::Kind;
 use crate::scene::yaml::value::{Range, Value};
 
 /// The keys of all materials.
@@ -35,16 +34,8 @@ const TYPES: [Type; 4] = [
 ];
 
 /// Reads a material; `None` after an error.
-pub(super) fn read(value: Value<'_>, report: &mut Report) -> Option<MaterialDesc> {
-    if value.node.text() == Some("FromFile") {
-        let help = "give a mapping with Type, Color and so on".to_owned();
-        value.error(
-            "cannot be FromFile: materials of OBJ files are not supported by this version",
-            Some(help),
-            report,
-        );
-        return None;
-    }
+pub(super) fn read(value: Value<'_>, context: &mut Context<'_>) -> Option<MaterialDesc> {
+    let report = &mut *context.report;
     let fields = Fields::open(value, &SECTION, &super::SECTIONS, report)?;
     let name = fields.name(report);
     let choices = TYPES.map(|material| (material.0, material));
@@ -54,20 +45,25 @@ pub(super) fn read(value: Value<'_>, report: &mut Report) -> Option<MaterialDesc
         return None;
     };
     fields.warn_unused(&SECTION, used, type_name, report);
-    let kind = read_kind(&fields, report)?;
-    Some(MaterialDesc { name, kind })
+    let kind = read_kind(&fields, report);
+    let mut texture = |key| if used.contains(&key) { texture(&fields, key, context) } else { Some(None) };
+    let (color, coat_color) = (texture("Color"), texture("ClearCoatColor"));
+    let textures = TexturesDesc { color: color?, coat_color: coat_color? };
+    Some(MaterialDesc { name, kind: kind?, textures })
 }
 
-/// A reflectance, white if it is not given.
-fn reflectance(fields: &Fields<'_>, key: &str, report: &mut Report) -> Option<Rgb> {
-    let Some(value) = fields.get(key) else { return Some(Rgb::ONE) };
-    if let Kind::Map(entries) = &value.node.kind
-        && entries.iter().any(|(key, _)| key.text() == Some("Image"))
-    {
-        value.error(PICTURES, Some("give three numbers from 0 to 1 instead".into()), report);
-        return None;
+/// The picture of a colour, if it is one; `None` after an error.
+fn texture(fields: &Fields<'_>, key: &str, context: &mut Context<'_>) -> Option<Option<PictureDesc>> {
+    match fields.get(key).filter(picture::is_named) {
+        Some(value) => picture::read(value, context).map(Some),
+        None => Some(None),
     }
-    value.vector(Range::Unit, report)
+}
+
+/// A reflectance; white if it is not given, or a picture, which is read by [`texture`].
+fn reflectance(fields: &Fields<'_>, key: &str, report: &mut Report) -> Option<Rgb> {
+    let value = fields.get(key).filter(|value| !picture::is_named(value));
+    value.map_or(Some(Rgb::ONE), |value| value.vector(Range::Unit, report))
 }
 
 fn diffuse(fields: &Fields<'_>, report: &mut Report) -> Option<MaterialKind> {

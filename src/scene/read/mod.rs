@@ -4,10 +4,12 @@ mod camera;
 mod environment;
 mod material;
 mod object;
+mod picture;
 
 use super::desc::{ObjectDesc, SceneDesc};
 use super::diagnostic::{Finding, Report};
 use super::meshes::Meshes;
+use super::pictures::Pictures;
 use super::source::Source;
 use super::yaml::fields::{Fields, Section};
 use super::yaml::node::{Kind, Node};
@@ -19,44 +21,42 @@ use std::path::Path;
 const SCENE: Section = Section { name: "the scene", keys: &["Camera", "Environment", "Objects"] };
 
 /// All sections, to say where a key belongs that stands in the wrong one.
-const SECTIONS: [Section; 5] =
-    [camera::SECTION, environment::SECTION, object::SECTION, material::SECTION, SCENE];
+const SECTIONS: [Section; 6] =
+    [camera::SECTION, environment::SECTION, object::SECTION, material::SECTION, SCENE, picture::SECTION];
 
 /// The most radiance that a light or the sky may have: products with areas and sums over lights stay within numbers.
 const MOST_RADIANCE: f64 = 1e100;
 
-/// What follows the path of a key that names a picture.
-const PICTURES: &str = "names a picture; pictures are not supported by this version";
-
-/// What reading an object needs beside its value.
-struct Context<'c> {
-    source: &'c Source<'c>,
-    meshes: &'c mut Meshes,
-    report: &'c mut Report,
+/// What reading a value needs beside it.
+pub(crate) struct Context<'c> {
+    /// The scene's text.
+    pub(crate) source: &'c Source<'c>,
+    /// The meshes that it names.
+    pub(crate) meshes: &'c mut Meshes,
+    /// The pictures that it names.
+    pub(crate) pictures: &'c mut Pictures,
+    /// What is wrong with it.
+    pub(crate) report: &'c mut Report,
 }
 
-/// Reads a scene; `None` after an error, which `report` holds.
-pub(crate) fn read(
-    root: &Node<'_>,
-    file: &Path,
-    source: &Source<'_>,
-    report: &mut Report,
-) -> Option<SceneDesc> {
+/// Reads a scene; `None` after an error, which the report holds.
+pub(crate) fn read(root: &Node<'_>, file: &Path, context: &mut Context<'_>) -> Option<SceneDesc> {
     let root = Value::root(root);
-    let fields = Fields::open(root, &SCENE, &SECTIONS, report)?;
-    let camera = fields.require("Camera", "Position, LookingAt, Fov and FocusDistance", report);
-    let camera = camera.and_then(|value| camera::read(value, report));
+    let fields = Fields::open(root, &SCENE, &SECTIONS, context.report)?;
+    let camera = fields.require("Camera", "Position, LookingAt, Fov and FocusDistance", context.report);
+    let camera = camera.and_then(|value| camera::read(value, context.report));
     let environment = match fields.get("Environment") {
-        Some(value) => environment::read(value, report),
-        None => Some(environment::default()),
+        Some(value) => environment::read(value, context),
+        None => Some((environment::default(), None)),
     };
-    let mut meshes = Meshes::beside(file);
-    let list = fields.require("Objects", "a list of objects", report);
-    let objects = list.and_then(|list| objects(list, &mut Context { source, meshes: &mut meshes, report }));
+    let list = fields.require("Objects", "a list of objects", context.report);
+    let objects = list.and_then(|list| objects(list, context));
+    let (environment, environment_map) = environment?;
     Some(SceneDesc {
         file: file.to_path_buf(),
         camera: camera?,
-        environment: environment?,
+        environment,
+        environment_map,
         objects: objects?,
     })
 }
@@ -80,6 +80,6 @@ fn objects(list: Value<'_>, context: &mut Context<'_>) -> Option<Vec<ObjectDesc>
     }
     let read = items.iter().enumerate().map(|(index, item)| object::read(list.item(index, item), context));
     // Not `collect::<Option<_>>`, which would stop at the first error.
-    let objects: Vec<Option<ObjectDesc>> = read.collect();
-    objects.into_iter().collect()
+    let objects: Vec<Option<Vec<ObjectDesc>>> = read.collect();
+    objects.into_iter().collect::<Option<Vec<_>>>().map(|objects| objects.into_iter().flatten().collect())
 }

@@ -2,11 +2,13 @@
 
 use super::{Context, material};
 use crate::math::DVec3;
-use crate::scene::desc::{Axes, ObjectDesc, ShapeDesc};
+use crate::scene::desc::{Axes, MaterialDesc, ObjectDesc, ShapeDesc, TexturesDesc};
 use crate::scene::diagnostic::Report;
+use crate::scene::from_file::{self, Part};
 use crate::scene::yaml::fields::{Fields, Section};
 use crate::scene::yaml::node::Kind;
 use crate::scene::yaml::value::{Range, Value};
+use std::sync::Arc;
 
 /// The keys of all shapes.
 pub(super) const SECTION: Section = Section {
@@ -36,8 +38,8 @@ const TYPES: [Type; 4] = [
 
 const CENTER: &str = "[x, y, z], the centre";
 
-/// Reads an item; `None` after an error.
-pub(super) fn read(item: Value<'_>, context: &mut Context<'_>) -> Option<ObjectDesc> {
+/// Reads an item: one object, or one for each emitting material of a mesh and one for the others; `None` after an error.
+pub(super) fn read(item: Value<'_>, context: &mut Context<'_>) -> Option<Vec<ObjectDesc>> {
     if has_keys_of_object(item) {
         let help =
             "write \"- Object:\" and indent Type, Position and so on further than the word Object".to_owned();
@@ -51,8 +53,66 @@ pub(super) fn read(item: Value<'_>, context: &mut Context<'_>) -> Option<ObjectD
     let name = fields.name(context.report);
     let shape = shape(&fields, context);
     let material = fields.require("Material", "a mapping with Type, Color and so on", context.report);
-    let material = material.and_then(|value| material::read(value, context.report));
-    Some(ObjectDesc { name, location, shape: shape?, material: material? })
+    if let Some(value) = material.filter(|value| value.node.text() == Some("FromFile")) {
+        let parts = from_file(&shape?, value, context)?;
+        let object = |(shape, material, faces)| ObjectDesc {
+            name: name.clone(),
+            location: location.clone(),
+            shape,
+            material,
+            faces,
+        };
+        return Some(parts.into_iter().map(object).collect());
+    }
+    let read = material.and_then(|value| material::read(value, context));
+    let (shape, read) = (shape?, read?);
+    check_coordinates(&shape, &read, material?, context)?;
+    Some(vec![ObjectDesc { name, location, shape, material: read, faces: Vec::new() }])
+}
+
+/// Whether a picture has a place on a mesh.
+fn check_coordinates(
+    shape: &ShapeDesc,
+    material: &MaterialDesc,
+    value: Value<'_>,
+    context: &mut Context<'_>,
+) -> Option<()> {
+    let has_picture = material.textures != TexturesDesc::default();
+    match shape {
+        ShapeDesc::TriangleMesh { mesh, .. } if has_picture && mesh.texcoord_indices.is_empty() => {
+            let help = "give the mesh texture coordinates (vt), or the material a plain colour".to_owned();
+            let text = "has a picture, but the mesh does not say where it goes";
+            value.error(text, Some(help), context.report);
+            None
+        }
+        _ => Some(()),
+    }
+}
+
+/// The shape, the material of the first face and where others begin.
+type MeshPart = (ShapeDesc, MaterialDesc, Vec<(u32, Arc<MaterialDesc>)>);
+
+/// The parts of a mesh whose materials are `FromFile`.
+fn from_file(shape: &ShapeDesc, value: Value<'_>, context: &mut Context<'_>) -> Option<Vec<MeshPart>> {
+    let ShapeDesc::TriangleMesh { file, mesh, .. } = shape else {
+        value.error("can be FromFile for a TriangleMesh only", None, context.report);
+        return None;
+    };
+    let key = Arc::as_ptr(mesh);
+    let known = context.meshes.parts.get(&key).cloned();
+    let parts = known.unwrap_or_else(|| {
+        let parts = from_file::parts(file, mesh, value, context);
+        context.meshes.parts.insert(key, parts.clone());
+        parts
+    });
+    let with_mesh = |part: Part| {
+        let mut shape = shape.clone();
+        if let ShapeDesc::TriangleMesh { mesh, .. } = &mut shape {
+            *mesh = part.mesh;
+        }
+        (shape, (*part.material).clone(), part.faces)
+    };
+    Some(parts?.into_iter().map(with_mesh).collect())
 }
 
 /// Whether the keys of an object stand beside the word `Object`, or without it: one mistake, and one message.

@@ -8,7 +8,7 @@ pub use alias::AliasTable;
 pub use area::Receiver;
 pub use spherical_rectangle::{Pane, SphericalRectangle};
 
-use super::sky::{Sky, SkyKind};
+use super::sky::Sky;
 use crate::geometry::{Geometry, Hit, SurfacePoint};
 use crate::math::{DVec3, Rgb};
 use area::AreaLight;
@@ -39,7 +39,7 @@ pub struct Lights {
     lights: Vec<AreaLight>,
     /// Index of the light of an object, or `u32::MAX`.
     of_object: Vec<u32>,
-    /// Share of the samples that go to the sky: 0 unless it is a gradient, 1 if nothing else shines.
+    /// Share of the samples that go to the sky: 0 unless it is sampled, 1 if nothing else shines.
     sky_share: f64,
     /// Choice by power; used when there are too many lights to weigh each one at every point.
     table: AliasTable,
@@ -75,10 +75,10 @@ impl Lights {
             }
         }
         let powers: Vec<f64> = lights.iter().map(|light| light.power).collect();
-        let sky_share = match (sky.kind(), lights.is_empty()) {
-            (SkyKind::Gradient, true) => 1.0,
-            (SkyKind::Gradient, false) => SKY_SHARE,
-            _ => 0.0,
+        let sky_share = match (sky.kind().is_sampled(), lights.is_empty()) {
+            (true, true) => 1.0,
+            (true, false) => SKY_SHARE,
+            (false, _) => 0.0,
         };
         Lights { lights, of_object, sky_share, table: AliasTable::new(&powers) }
     }
@@ -195,5 +195,5 @@ impl Lights {
     }
 }
 
-/// Share of the samples that a gradient sky gets beside other lights.
+/// Share of the samples that a sampled sky gets beside other lights.
 const SKY_SHARE: f64 = 0.5;

@@ -42,7 +42,7 @@ impl Instructions {
     }
 
     /// Which it is.
-    pub(super) fn isa(self) -> Isa {
+    pub(in crate::accel) fn isa(self) -> Isa {
         self.0
     }
 

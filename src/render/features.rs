@@ -1,0 +1,118 @@
+//! The features of all pixels, for channels beside the light and for denoising.
+
+use super::{Settings, memory};
+use crate::error::Result;
+use crate::integrator::Features;
+use crate::picture::{Channel, Samples};
+use rayon::prelude::*;
+
+/// What is seen in every pixel.
+#[derive(Clone, Debug)]
+pub struct FeaturePlanes {
+    /// One a pixel, row by row from the top left.
+    pixels: Vec<Features>,
+}
+
+/// The features that can be asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FeatureKind {
+    /// `Albedo.R`, `.G`, `.B`: means of all samples.
+    Albedo,
+    /// `Normal.X`, `.Y`, `.Z`: means of all samples, in world space; shorter than 1 where they differ.
+    Normal,
+    /// `Z`: distance along the viewing direction, the mean of the samples that met something, else [`FAR`].
+    Depth,
+    /// `Position.X`, `.Y`, `.Z`: the mean of the samples that met something, else 0.
+    Position,
+    /// `id`: index of the object plus one, of the first sample that met one; 0 for the sky. Never a mean.
+    Object,
+}
+
+/// The depth of what is infinitely far, as in Blender's pictures.
+pub const FAR: f32 = 1e10;
+
+impl FeatureKind {
+    /// All of them.
+    pub const ALL: [FeatureKind; 5] = [
+        FeatureKind::Albedo,
+        FeatureKind::Normal,
+        FeatureKind::Depth,
+        FeatureKind::Position,
+        FeatureKind::Object,
+    ];
+
+    /// The name on the command line.
+    pub const fn name(self) -> &'static str {
+        match self {
+            FeatureKind::Albedo => "albedo",
+            FeatureKind::Normal => "normal",
+            FeatureKind::Depth => "depth",
+            FeatureKind::Position => "position",
+            FeatureKind::Object => "object",
+        }
+    }
+}
+
+/// Collects `samples` samples of every pixel; `feature(x, y, index)` finds one.
+pub(super) fn collect<F>(settings: &Settings, samples: u64, feature: F) -> Result<FeaturePlanes>
+where
+    F: Fn(u32, u32, u64) -> Features + Sync,
+{
+    let width = settings.width as usize;
+    let mut pixels: Vec<Features> = memory::plane(settings)?;
+    pixels.par_chunks_mut(width).enumerate().for_each(|(y, row)| {
+        for (pixel, x) in row.iter_mut().zip(0u32..) {
+            (0..samples).for_each(|index| *pixel += feature(x, y as u32, index));
+        }
+    });
+    Ok(FeaturePlanes { pixels })
+}
+
+impl FeaturePlanes {
+    /// The channels of some features.
+    pub fn channels(&self, kinds: &[FeatureKind]) -> Vec<Channel> {
+        kinds.iter().flat_map(|&kind| self.channels_of(kind)).collect()
+    }
+
+    fn channels_of(&self, kind: FeatureKind) -> Vec<Channel> {
+        let floats = |name: &str, of: &dyn Fn(&Features) -> f64| Channel {
+            name: name.to_owned(),
+            values: Samples::Floats(self.pixels.iter().map(|pixel| of(pixel) as f32).collect()),
+        };
+        let seen = |sum: f64, pixel: &Features| sum / pixel.hits.max(1) as f64;
+        let all = |sum: f64, pixel: &Features| sum / pixel.samples.max(1) as f64;
+        match kind {
+            FeatureKind::Albedo => vec![
+                floats("Albedo.R", &|p| all(p.albedo.x, p)),
+                floats("Albedo.G", &|p| all(p.albedo.y, p)),
+                floats("Albedo.B", &|p| all(p.albedo.z, p)),
+            ],
+            FeatureKind::Normal => vec![
+                floats("Normal.X", &|p| all(p.normal.x, p)),
+                floats("Normal.Y", &|p| all(p.normal.y, p)),
+                floats("Normal.Z", &|p| all(p.normal.z, p)),
+            ],
+            FeatureKind::Depth => {
+                vec![floats("Z", &|p| if p.hits == 0 { FAR.into() } else { seen(p.depth, p) })]
+            }
+            FeatureKind::Position => vec![
+                floats("Position.X", &|p| seen(p.position.x, p)),
+                floats("Position.Y", &|p| seen(p.position.y, p)),
+                floats("Position.Z", &|p| seen(p.position.z, p)),
+            ],
+            FeatureKind::Object => {
+                let ids = self.pixels.iter().map(|pixel| pixel.object).collect();
+                vec![Channel { name: "id".to_owned(), values: Samples::Integers(ids) }]
+            }
+        }
+    }
+
+    /// Albedo and normals as three floats a pixel.
+    pub fn guides(&self) -> [Vec<f32>; 2] {
+        let mean = |of: fn(&Features) -> crate::math::DVec3| {
+            let means = self.pixels.iter().map(|pixel| of(pixel) / pixel.samples.max(1) as f64);
+            means.flat_map(|mean| mean.to_array().map(|value| value as f32)).collect()
+        };
+        [mean(|pixel| pixel.albedo), mean(|pixel| pixel.normal)]
+    }
+}
