@@ -1,5 +1,6 @@
 //! Accelerators: equal answers, no leaks, ties, odd rays, and the structure of the tree.
 
+mod few_solids;
 mod identity;
 mod mutations;
 mod odd_rays;
