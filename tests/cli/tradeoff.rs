@@ -139,7 +139,9 @@ fn a_report_opens_in_a_browser() {
     browse(&chromium, &folder, &format!("--screenshot={}", folder.path("a.png").display()));
     let shot = image::open(folder.path("a.png")).expect("a screenshot").into_rgb8();
     // The ball is red, and nothing else on the page is as red.
-    let red =
-        shot.pixels().filter(|pixel| pixel[0] > 80 && pixel[0] > 2 * pixel[1] && pixel[0] > 2 * pixel[2]);
+    let red = shot.pixels().filter(|pixel| {
+        let [red, green, blue] = pixel.0.map(u32::from);
+        red > 80 && red > 2 * green && red > 2 * blue
+    });
     assert!(red.count() > 1000, "the pictures are not shown");
 }
