@@ -21,7 +21,7 @@ fn as_many_samples_as_were_taken_make_the_same_picture() {
         let rendered = subject.render(&timed);
         assert_eq!(rendered.ended, Ended::OutOfTime);
         let fixed = Settings { time: None, samples: rendered.film.samples(), ..timed };
-        assert_eq!(subject.render(&fixed).film, rendered.film);
+        assert!(subject.render(&fixed).film.means().eq(rendered.film.means()));
     }
 }
 
@@ -32,7 +32,7 @@ fn as_many_samples_as_were_taken_make_the_same_picture_with_blocks() {
     let rendered = subject.render(&timed);
     assert_eq!(rendered.ended, Ended::OutOfTime);
     let fixed = Settings { time: None, samples: rendered.film.samples(), ..timed };
-    assert_eq!(subject.render(&fixed).film, rendered.film);
+    assert!(subject.render(&fixed).film.means().eq(rendered.film.means()));
 }
 
 #[test]
