@@ -380,10 +380,14 @@ impl Run<'_> {
             return Ok(rendered);
         }
         let tracer = FeatureTracer { world: self.world, camera: &camera, accelerator: accel };
-        let features = features::collect(self.settings, rendered.film.samples(), |x, y, index| {
-            tracer.sample(&sampler, x, y, index)
-        });
-        Ok(Rendered { features: Some(features?), ..rendered })
+        let start = Instant::now();
+        let features =
+            features::collect(self.settings, self.watch, rendered.film.samples(), |x, y, index| {
+                tracer.sample(&sampler, x, y, index)
+            })?;
+        let ended = if self.watch.cancelled() { Ended::Cancelled } else { rendered.ended };
+        let render_seconds = rendered.render_seconds + start.elapsed().as_secs_f64();
+        Ok(Rendered { features: Some(features), ended, render_seconds, ..rendered })
     }
 }
 

@@ -34,8 +34,7 @@ fn notes(rendered: &Rendered) -> Vec<String> {
     }
     if counters.cut_paths > 0 {
         notes.push(format!(
-            "note: the limit of bounces cut {} % of the paths, which carried {} % of the throughput",
-            percent(counters.cut_paths as f64 / rendered.samples()),
+            "note: the limit of bounces cut paths that carried {} % of the throughput",
             percent(rendered.cut_share())
         ));
     }

@@ -26,6 +26,11 @@ pub(super) fn run(job: &Job) -> anyhow::Result<u8> {
     let target = Target::new(job)?;
     let destination = &target.picture;
     let error_bars = job.error_bars.as_deref().map(error_bars).transpose()?;
+    if let Some(bars) = &error_bars
+        && target.holds(bars)
+    {
+        return Err(Error::Usage("--error-bars needs a file of its own, beside the picture's".into()).into());
+    }
     interrupt::listen(destination.partial_path().to_path_buf())?;
 
     let (scene, load) = timed(|| in_pool(&job.settings, || scene::load(&job.scene)));

@@ -30,6 +30,12 @@ impl Target {
         Ok(Target { picture, denoised })
     }
 
+    /// Whether one of the pictures goes to the same file.
+    pub(super) fn holds(&self, other: &Destination) -> bool {
+        let noisy = self.denoised.as_ref().map(|(noisy, _)| noisy.path());
+        self.picture.path() == other.path() || noisy == Some(other.path())
+    }
+
     /// Writes what was rendered.
     pub(super) fn write(&self, job: &Job, provenance: &Provenance<'_>, rendered: &Rendered) -> Result<()> {
         let light: Vec<f64> = output::channels(&rendered.film).collect();

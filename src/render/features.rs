@@ -1,6 +1,6 @@
 //! The features of all pixels, for channels beside the light and for denoising.
 
-use super::{Settings, memory};
+use super::{Settings, Watch, memory};
 use crate::error::Result;
 use crate::integrator::Features;
 use crate::picture::{Channel, Samples};
@@ -53,16 +53,25 @@ impl FeatureKind {
     }
 }
 
-/// Collects `samples` samples of every pixel; `feature(x, y, index)` finds one.
-pub(super) fn collect<F>(settings: &Settings, samples: u64, feature: F) -> Result<FeaturePlanes>
+/// Collects `samples` samples of every pixel, or one of each pixel that is left when it is cancelled;
+/// `feature(x, y, index)` finds one.
+pub(super) fn collect<F>(
+    settings: &Settings,
+    watch: &dyn Watch,
+    samples: u64,
+    feature: F,
+) -> Result<FeaturePlanes>
 where
     F: Fn(u32, u32, u64) -> Features + Sync,
 {
-    let width = settings.width as usize;
+    let (width, scrambles) = (settings.width as usize, settings.scrambles());
     let mut pixels: Vec<Features> = memory::plane(settings)?;
     pixels.par_chunks_mut(width).enumerate().for_each(|(y, row)| {
         for (pixel, x) in row.iter_mut().zip(0u32..) {
-            (0..samples).for_each(|index| *pixel += feature(x, y as u32, index));
+            let samples = if watch.cancelled() { samples.min(1) } else { samples };
+            for sample in 0..samples {
+                *pixel += feature(x, y as u32, scrambles.place(sample).sample_index());
+            }
         }
     });
     Ok(FeaturePlanes { pixels })

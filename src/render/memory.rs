@@ -30,10 +30,7 @@ pub fn film_bytes(settings: &Settings) -> u64 {
 
 /// Whether the film fits into the memory that is free now; passes where the system does not say.
 pub(super) fn check(settings: &Settings) -> Result<()> {
-    let pixels = u64::from(settings.width) * u64::from(settings.height);
-    // The features and the channels that they become.
-    let features = if settings.features { pixels * 2 * size_of::<Features>() as u64 } else { 0 };
-    let needed = film_bytes(settings).saturating_add(features);
+    let needed = needed_bytes(settings);
     match available_bytes() {
         Some(available) if needed > available => Err(too_large(settings, Some(available))),
         _ => Ok(()),
@@ -59,9 +56,17 @@ fn filled<T: Clone + Default>(settings: &Settings, each: usize) -> Result<Vec<T>
     Ok(filled)
 }
 
+/// What the film and the features take.
+fn needed_bytes(settings: &Settings) -> u64 {
+    let pixels = u64::from(settings.width) * u64::from(settings.height);
+    // The features and the channels that they become.
+    let features = if settings.features { pixels * 2 * size_of::<Features>() as u64 } else { 0 };
+    film_bytes(settings).saturating_add(features)
+}
+
 fn too_large(settings: &Settings, available: Option<u64>) -> Error {
     let Settings { width, height, samples, .. } = *settings;
-    let needed = gigabytes(film_bytes(settings));
+    let needed = gigabytes(needed_bytes(settings));
     let available = available.map_or("less".into(), gigabytes);
     Error::Usage(format!(
         "a picture of {width} x {height} pixels with {samples} samples needs {needed} GB of memory, and {available} GB \

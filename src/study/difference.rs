@@ -92,7 +92,7 @@ impl Difference {
             trelmse: pair.trimmed_rel_mse(),
             bias: if is_black { 0.0 } else { pair.bias() },
             flip: flip.iter().map(|&x| f64::from(x)).sum::<f64>() / flip.len() as f64,
-            max: values().map(|(&a, &b)| (f64::from(a) - f64::from(b)).abs()).fold(0.0, f64::max),
+            max: values().map(|(&a, &b)| (f64::from(a) - f64::from(b)).abs()).fold(0.0, largest),
             differing: count(|a, b| a != b),
             not_finite: count(|a, b| !a.iter().chain(b).all(|value| value.is_finite())),
         };
@@ -140,4 +140,9 @@ fn pixel_error(picture: &[f32], reference: &[f32]) -> f64 {
     let values = picture.iter().zip(reference).map(|(&x, &r)| (f64::from(x), f64::from(r)));
     let sum: f64 = values.map(|(x, r)| (x - r) * (x - r) * relative_weight(r)).sum();
     if sum.is_nan() { f64::INFINITY } else { sum / 3.0 }
+}
+
+/// The larger of two numbers; NaN if one is.
+fn largest(a: f64, b: f64) -> f64 {
+    if b.is_nan() || b > a { b } else { a }
 }

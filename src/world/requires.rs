@@ -115,7 +115,8 @@ impl fmt::Display for Requires {
 /// relMSE, an open scene with two 1.14 times. Where skies, mirrors or glass bring noise of their own it gained nothing
 /// (0.8 to 1.1 times).
 fn branches(world: &World) -> u32 {
-    let plain = world.materials.iter().all(|material| matches!(material, Material::Diffuse(_)));
+    let mut materials = world.materials.iter().chain(world.varied.face_materials());
+    let plain = materials.all(|material| matches!(material, Material::Diffuse(_)));
     match world.sky.kind() {
         _ if !plain || world.lights.count() == 0 => 1,
         SkyKind::Black => 4,

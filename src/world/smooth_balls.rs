@@ -5,7 +5,7 @@ use crate::geometry::{Ball, Shape};
 use crate::material::Material;
 use crate::math::Rgb;
 
-/// A mirror or glass ball whose surface is smooth.
+/// A mirror or glass ball whose surface is smooth and has the same colour everywhere.
 #[derive(Clone, Copy, Debug)]
 pub struct SmoothBall {
     /// Where it is, in world space.
@@ -31,6 +31,10 @@ impl World {
         let solids = self.geometry.solids.iter().zip(0..);
         let smooth = solids.filter_map(|(solid, index)| {
             let Shape::Ball(ball) = solid.shape else { return None };
+            // A picture as its colour would have to be looked up at every interface of a path.
+            if self.varied.varies(solid.object) {
+                return None;
+            }
             let (color, ratio) = match self.material(solid.object) {
                 Material::Refractive(glass) if glass.ratio < 1.0 => (glass.color, Some(glass.ratio)),
                 material @ Material::Reflective(mirror) if material.is_delta() => (mirror.color, None),

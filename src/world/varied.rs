@@ -134,6 +134,11 @@ impl Varied {
             .flat_map(|object| object.faces.iter().map(|(_, material, _)| material))
     }
 
+    /// Whether the material of an object is not the same everywhere.
+    pub(super) fn varies(&self, object: u32) -> bool {
+        self.of_object.get(object as usize).is_some_and(Option::is_some)
+    }
+
     /// Number of pictures.
     pub(super) fn textures(&self) -> usize {
         self.textures.len()

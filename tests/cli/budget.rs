@@ -16,6 +16,13 @@ fn the_final_line_says_the_error() {
 }
 
 #[test]
+fn error_bars_need_a_file_of_their_own() {
+    let folder = Folder::new();
+    folder.run("ball.yaml 32 24 16 3 a.exr --error-bars a.exr").fails(2, "a file of its own");
+    assert!(!folder.has("a.exr"));
+}
+
+#[test]
 fn the_error_can_be_switched_off() {
     let ended = Folder::new().run("ball.yaml 32 24 4 3 a.png --error-estimate off --json");
     ended.succeeds();

@@ -68,6 +68,18 @@ fn a_metric_above_its_limit_ends_with_code_4() {
 }
 
 #[test]
+fn a_picture_with_nan_is_above_every_limit() {
+    let folder = folder();
+    let mut picture = image::Rgb32FImage::from_pixel(4, 3, Rgb([0.5; 3]));
+    picture.save(folder.path("a.exr")).expect("a picture");
+    picture.put_pixel(1, 1, Rgb([f32::NAN, 0.5, 0.5]));
+    picture.save(folder.path("nan.exr")).expect("a picture");
+    for metric in ["rmse", "relmse", "max"] {
+        folder.run(&format!("diff nan.exr a.exr --fail-above {metric}=1e30")).fails(4, metric);
+    }
+}
+
+#[test]
 fn what_cannot_be_compared_ends_with_code_1() {
     let folder = folder();
     folder.run("diff a.png c.png").fails(1, "the sizes differ: 40 x 30 and 40 x 31 pixels");

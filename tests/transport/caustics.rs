@@ -3,7 +3,9 @@
 use crate::support::build::*;
 use crate::support::stats::Moments;
 use pathtracer::math::DVec3;
-use pathtracer::scene::desc::{MaterialKind, SceneDesc, ShapeDesc};
+use pathtracer::picture::{Decoded, Pixels};
+use pathtracer::scene::desc::{MaterialKind, PictureDesc, SceneDesc, ShapeDesc};
+use std::sync::Arc;
 
 fn glass(ratio: f64) -> MaterialKind {
     MaterialKind::Refractive { color: grey(0.9), ratio }
@@ -114,6 +116,17 @@ fn a_limit_of_bounces_cuts_the_same_paths() {
             assert_same_light(&format!("{bounces} bounces"), &desc, bounces, 1e-2);
         }
     }
+}
+
+#[test]
+fn balls_with_a_picture_as_their_colour_are_left_to_chance() {
+    let light = ball(DVec3::new(0.5, 0.3, 3.0), 0.6);
+    let mut desc = ball_below(light, glass(1.0 / 1.5));
+    let rgb = [0.2f32, 0.9, 0.5, 0.7].into_iter().flat_map(|value| [value; 3]).collect();
+    let picture = Decoded { width: 2, height: 2, pixels: Pixels::Floats(rgb), is_encoded: false };
+    let picture = PictureDesc { file: "a.exr".into(), picture: Arc::new(picture), is_encoded: false };
+    desc.objects[0].material.textures.color = Some(picture);
+    assert_same_light("a picture", &desc, 6, 2e-2);
 }
 
 #[test]
