@@ -41,6 +41,25 @@ fn features_are_channels_beside_the_same_light() {
     assert_eq!(all["Normal.X"][corner], 0.0);
 }
 
+/// Of what shines and reflects nothing, the albedo is the light: so both see the same edges if they see by the same rays.
+#[test]
+fn features_see_by_the_rays_of_the_light() {
+    let folder = Folder::new();
+    folder.write(
+        "lamp.yaml",
+        "Camera: { Position: [0, 0, 0], LookingAt: [1, 0, 0], Fov: 0.25, FocusDistance: 1 }\n\
+         Environment: { SkyColor: [0, 0, 0], HorizonColor: [0, 0, 0], GroundColor: [0, 0, 0] }\n\
+         Objects:\n  - Object:\n      Type: Ball\n      Position: [5, 0, 0]\n      Radius: 1.3\n      \
+         Material: { Type: Diffuse, Color: [0, 0, 0], EmissionStrength: 0.5 }\n",
+    );
+    for options in ["--sampler independent", "--scramble-length 1"] {
+        folder.run(&format!("lamp.yaml 16 16 32 1 a.exr --aov albedo {options}")).succeeds();
+        let all = channels(&folder, "a.exr");
+        assert_eq!(all["R"], all["Albedo.R"], "{options}");
+        assert!(all["R"].iter().any(|&value| value > 0.0 && value < 0.5), "edges are seen");
+    }
+}
+
 #[test]
 fn features_are_the_same_for_all_threads() {
     let folder = Folder::new();
