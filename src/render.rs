@@ -14,6 +14,7 @@ mod meter;
 mod outlook;
 mod pace;
 mod report;
+mod so_far;
 mod tile;
 
 pub use adaptive::NOISE_AFTER;
@@ -21,6 +22,7 @@ pub use features::{FAR, FeatureKind, FeaturePlanes};
 pub(crate) use memory::available_bytes;
 pub use memory::film_bytes;
 pub use outlook::Outlook;
+pub use so_far::SoFar;
 
 use crate::accel::bvh::Bvh;
 #[cfg(feature = "embree")]
@@ -291,6 +293,10 @@ pub trait Watch: Sync {
 
     /// Whether to stop. Asked for every pixel; the pass that is under way is given up.
     fn cancelled(&self) -> bool;
+
+    /// Called after every pass, by the thread that waits for the render, with the picture so far: it has the bytes of a
+    /// render of as many samples. Where blocks stop, after every chunk.
+    fn pass(&self, _so_far: &SoFar<'_>) {}
 }
 
 /// What a render made.

@@ -2,7 +2,7 @@ use pathtracer::error::Error;
 use pathtracer::film::{Film, Sums};
 use pathtracer::integrator::Counters;
 use pathtracer::math::Rgb;
-use pathtracer::render::{Ended, Progress, Rendered, Settings, Watch, accumulate};
+use pathtracer::render::{Ended, Progress, Rendered, Settings, SoFar, Watch, accumulate};
 use std::sync::Mutex;
 
 /// Follows a render, and stops it once so many samples are taken.
@@ -42,6 +42,37 @@ fn small(samples: u64) -> Settings {
 
 fn run(settings: &Settings) -> Rendered {
     accumulate(settings, &Limit::new(u64::MAX), synthetic).expect("a render without trouble")
+}
+
+/// Keeps the picture after every pass.
+#[derive(Default)]
+struct Passes(Mutex<Vec<(u64, Vec<Rgb>)>>);
+
+impl Watch for Passes {
+    fn progress(&self, _: &Progress) {}
+
+    fn cancelled(&self) -> bool {
+        false
+    }
+
+    fn pass(&self, so_far: &SoFar<'_>) {
+        let mut means = Vec::new();
+        so_far.means(&mut means);
+        self.0.lock().expect("no panic before").push((so_far.samples(), means));
+    }
+}
+
+#[test]
+fn the_picture_after_every_pass_is_that_of_a_render_of_as_many_samples() {
+    let passes = Passes::default();
+    accumulate(&small(60), &passes, synthetic).expect("a render without trouble");
+    let passes = passes.0.into_inner().expect("no panic before");
+    let samples: Vec<u64> = passes.iter().map(|pass| pass.0).collect();
+    assert_eq!(samples[..6], [1, 2, 4, 8, 16, 17]);
+    assert_eq!(samples.last(), Some(&60));
+    for (samples, means) in passes {
+        assert_eq!(means, run(&small(samples)).film.means().collect::<Vec<_>>(), "{samples} samples");
+    }
 }
 
 #[test]

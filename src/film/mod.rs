@@ -111,8 +111,13 @@ impl Film {
 
     /// The sum of a pixel's samples, counted row by row from the top left.
     pub fn sum(&self, pixel: usize) -> Rgb {
+        self.sum_after(None, pixel)
+    }
+
+    /// The same with the sum of a chunk that is still to be added, `last`.
+    pub(crate) fn sum_after(&self, last: Option<Rgb>, pixel: usize) -> Rgb {
         let sums = self.nodes.iter().rev().map(|node| node.sums.radiance[pixel]);
-        sums.reduce(|sum, node| sum + node).unwrap_or(Rgb::ZERO)
+        last.into_iter().chain(sums).reduce(|sum, node| sum + node).unwrap_or(Rgb::ZERO)
     }
 
     /// How many sums a pixel are held at once, at most, while `chunks` chunks arrive in order.

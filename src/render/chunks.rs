@@ -6,6 +6,7 @@ use super::error_pixels::ErrorPixels;
 use super::meter::Meter;
 use super::outlook::{History, Outlook};
 use super::pace::Pace;
+use super::so_far::SoFar;
 use super::tile::{self, Pass, Tile, Work};
 use super::{Ended, Rendered, Settings, Watch};
 use crate::error::Result;
@@ -83,6 +84,7 @@ where
             let (cells, ended) = self.chunk(index * chunk..most.min((index + 1) * chunk))?;
             if cells.samples > 0 {
                 self.keep(index, cells)?;
+                self.watch.pass(&SoFar::new(&self.film, None));
             }
             if let Some(ended) = ended {
                 return Ok(ended);
@@ -130,6 +132,9 @@ where
             self.look_ahead(&cells);
             if cells.samples < samples.end - samples.start {
                 complete.copy_from(&cells);
+                if self.blocks.is_none() {
+                    self.watch.pass(&SoFar::new(&self.film, Some(&cells)));
+                }
             }
         }
     }
