@@ -144,9 +144,13 @@ impl Four<14> {
         let (t, cosine) = pane.distance(lanes, ray.origin, ray.direction);
         let (_, clearance) = pane.look(lanes, ray.origin, ray.direction, t, cosine, ray.size);
         let zero = lanes.same(0.0);
-        // NaN is in doubt.
+        // Where in doubt, as with NaN, t may be rounding alone: the hit counts as the nearest. Unused lanes have t = NaN.
+        let is_clear = lanes.is_less(zero, clearance.hits);
+        let is_number = lanes.is_at_most(lanes.size(t), lanes.same(f64::INFINITY));
+        let perhaps = lanes.choose(is_number, lanes.same(f64::MIN_POSITIVE), zero);
+        let t = lanes.choose(is_clear, t, perhaps);
         let t = lanes.choose(lanes.is_less(clearance.misses, zero), zero, t);
-        let doubt = lanes.choose(lanes.is_less(zero, clearance.hits), zero, lanes.same(0.5));
+        let doubt = lanes.choose(is_clear, zero, lanes.same(0.5));
         Hits { t, solids: lanes.read(&self.solids), doubt }
     }
 }

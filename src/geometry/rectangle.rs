@@ -45,15 +45,23 @@ pub(super) struct Clearance<N> {
     pub(super) hits: N,
 }
 
-/// By how much coordinates may deceive, as a part of R over the shorter edge and over the cosine of the angle to the
-/// normal: 2^-42. R is the sum of the sizes of the ray's origin, the centre and the edges.
+/// Below what part of R over the shorter edge, divided by the cosine of the angle to the normal, coordinates are not
+/// trusted: 2^-28. R is the sum of the sizes of the ray's origin, the centre and the edges.
 ///
 /// With e = 2^-53 the distance t to the plane is wrong by at most (8 e R + 8 e |t|) / cosine, and the point there by
 /// 4 e (R + |t|) more. Of points within 4 R that is less than 80 e R / cosine; of farther ones it is either less than their
 /// own distance from the rectangle, or the cosine is below 50 e and the slack above all coordinates. The exact signs are
 /// those of corners moved by up to 16 e R across the ray, which is at most 32 e R / cosine in the plane. Together less than
 /// 2^-46 R / cosine, and sqrt(2) of it beside the diagonal.
-const SLACK: f64 = 1.0 / 4_398_046_511_104.0;
+///
+/// It is 2^18 times that, so that t is right to 2^-18 of the shorter edge too wherever coordinates decide: accelerators
+/// leave out boxes that begin beyond t, and these are widened by more ([`super::LocalFrame::padding`]).
+const SLACK: f64 = 1.0 / 268_435_456.0;
+
+/// By what part of R the box around the rectangle is widened where it tells a ray in the plane how far the rectangle is:
+/// 2^-46, which is 128 e R. Corners and the distances to the faces are wrong by less, and it is little beside what
+/// accelerators widen boxes by.
+const BOX_SLACK: f64 = 1.0 / 70_368_744_177_664.0;
 
 /// Larger numbers and the reciprocals of smaller ones than this are left to exact signs.
 const COMMON: f64 = 1e100;
@@ -139,18 +147,35 @@ impl Rectangle {
     pub fn intersect(&self, origin: DVec3, direction: DVec3, t_max: f64) -> Option<RectangleHit> {
         let (pane, o, d) = (self.pane(), origin.to_array(), direction.to_array());
         let (t, cosine) = pane.distance(One, o, d);
-        if !(t > 0.0 && t <= t_max && cosine != 0.0) {
+        if cosine == 0.0 || t.is_nan() {
             return None;
         }
         let (uv, clearance) = pane.look(One, o, d, t, cosine, origin.abs().element_sum());
-        let part = if clearance.misses < 0.0 {
+        if clearance.misses < 0.0 {
             return None;
-        } else if clearance.hits > 0.0 {
-            Self::part_at(uv)
+        }
+        let (t, part, uv) = if clearance.hits > 0.0 {
+            (t, Self::part_at(uv), uv)
         } else {
-            self.part_hit(origin, direction)?
+            let part = self.part_hit(origin, direction)?;
+            let (enter, leave) = self.range(origin, direction);
+            let t = t.max(enter).min(leave);
+            (t, part, pane.coordinates(One, o, d, t))
         };
-        Some((t, part, edge_coordinate(uv[0]), edge_coordinate(uv[1])))
+        (t > 0.0 && t <= t_max).then(|| (t, part, edge_coordinate(uv[0]), edge_coordinate(uv[1])))
+    }
+
+    /// Where the line is in the box around the rectangle, a little widened. The distance to the plane is rounding alone for
+    /// a ray that lies in it, but such a ray meets the rectangle in this box.
+    fn range(&self, origin: DVec3, direction: DVec3) -> (f64, f64) {
+        let around = origin.abs().element_sum() + self.center.abs().element_sum() + self.reach;
+        let (bounds, slack) = (self.bounds(), DVec3::splat(BOX_SLACK * around));
+        let (low, high) = (bounds.min - slack - origin, bounds.max + slack - origin);
+        let whole = (f64::NEG_INFINITY, f64::INFINITY);
+        (0..3).filter(|&axis| direction[axis] != 0.0).fold(whole, |(enter, leave), axis| {
+            let (a, b) = (low[axis] / direction[axis], high[axis] / direction[axis]);
+            (enter.max(a.min(b)), leave.min(a.max(b)))
+        })
     }
 
     /// The part and the coordinates of a hit at `t` away from edges and diagonal.

@@ -1,4 +1,4 @@
-//! Few solids are tried several at a time, without a tree: the hits are those of one after the other.
+//! Few solids are tried several at a time, without a tree, more by a tree: the hits are those of one after the other.
 
 #[cfg(feature = "embree")]
 use pathtracer::accel::BuildOptions;
@@ -101,6 +101,18 @@ fn any_number_of_any_shapes_gets_the_hits_of_brute_force() {
     for count in 0..=24 {
         for (seed, kinds) in [&[0][..], &[1], &[2], &[0, 1, 2], &[2, 2, 0, 1]].into_iter().enumerate() {
             assert_all_agree(100 * count as u64 + seed as u64, count, kinds);
+        }
+    }
+}
+
+/// Rays that lie in a rectangle but for the rounding of its normal meet it somewhere, and a tree must not look elsewhere.
+#[test]
+fn solids_in_a_tree_get_the_hits_of_brute_force() {
+    for count in [25, 40, 100] {
+        for (seed, kinds) in [&[0][..], &[1], &[2], &[0, 1, 2], &[2, 2, 0, 1]].into_iter().enumerate() {
+            for round in 0..4 {
+                assert_all_agree(1000 * round + 100 * count as u64 + seed as u64, count, kinds);
+            }
         }
     }
 }
