@@ -313,6 +313,8 @@ pub struct Rendered {
     pub features: Option<FeaturePlanes>,
     /// The limit of the samples' components.
     pub clamp: Option<f64>,
+    /// The brightest light, the unit of [`Counters::last_light`].
+    pub brightest: f64,
     /// How far the picture is from the truth, estimated from the film if its eight scrambles have their first round,
     /// else as [`Settings::error_estimate`] says; `None` without either.
     pub error: Option<PictureError>,
@@ -382,6 +384,7 @@ impl Run<'_> {
         let rendered = take_samples(self.settings, self.watch, |x, y, index, counters| {
             tracer.sample(&sampler, x, y, index, counters)
         })?;
+        let rendered = Rendered { brightest: self.world.brightest(), ..rendered };
         if !self.settings.features {
             return Ok(rendered);
         }

@@ -112,6 +112,8 @@ struct Counts {
     cut_paths: u64,
     /// Share of the samples' throughput that arrived with the last segment, 0 to 1.
     cut_throughput: f64,
+    /// Estimated share of the light that these paths would have brought, 0 to 1; null without light.
+    cut_light: Option<f64>,
     fireflies: u64,
     clamped_samples: u64,
     /// Off the picture's mean, in units of radiance; null without a limit.
@@ -225,6 +227,7 @@ impl Counts {
             self_hits: counters.self_hits,
             cut_paths: counters.cut_paths,
             cut_throughput: rendered.cut_share(),
+            cut_light: rendered.cut_light(),
             fireflies: counters.fireflies,
             clamped_samples: counters.clamped,
             clamp_removed: rendered.clamp_removed(),

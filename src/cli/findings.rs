@@ -33,9 +33,11 @@ fn notes(rendered: &Rendered) -> Vec<String> {
         ));
     }
     if counters.cut_paths > 0 {
+        let light = rendered.cut_light().map(|share| format!(", about {} % of the light", percent(share)));
         notes.push(format!(
-            "note: the limit of bounces cut paths that carried {} % of the throughput",
-            percent(rendered.cut_share())
+            "note: the limit of bounces cut paths that carried {} % of the throughput{}",
+            percent(rendered.cut_share()),
+            light.unwrap_or_default()
         ));
     }
     if counters.fireflies > 0 {

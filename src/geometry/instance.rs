@@ -57,11 +57,16 @@ impl Instance {
         self.rotation * p * self.scale + self.position
     }
 
+    /// A point of the world in the mesh's units.
+    pub(crate) fn to_mesh(&self, p: DVec3) -> DVec3 {
+        self.rotation.transpose() * ((p - self.position) / self.scale)
+    }
+
     /// The ray as the mesh sees it; distances along it are in the mesh's units.
     fn seen_by_mesh(&self, ray: &Ray) -> Ray {
         let back = self.rotation.transpose();
         Ray {
-            origin: back * ((ray.origin - self.position) / self.scale),
+            origin: self.to_mesh(ray.origin),
             direction: back * ray.direction,
             side: back * ray.side,
             ..*ray

@@ -4,6 +4,8 @@ use super::frame::LocalRay;
 use super::surface::ROUNDINGS;
 use super::{LocalFrame, SurfacePoint, TriangleHit};
 use crate::math::{Bounds, DVec3};
+use rayon::prelude::*;
+use std::f64::consts::PI;
 use std::ops::Range;
 
 /// A mesh on its way into a [`super::Geometry`]: corners in world space, or of a mesh that has instances in the space of
@@ -104,6 +106,20 @@ impl MeshSpace {
         let ends = self.meshes.iter().skip(1).map(|mesh| mesh.first);
         let ends = ends.chain(std::iter::once(self.triangles.len() as u32));
         self.meshes.iter().zip(ends).map(|(mesh, end)| (mesh, mesh.first..end))
+    }
+
+    /// How often triangles go around a point in outer coordinates: +-1 inside a closed mesh, 0 outside of it, something
+    /// else where a mesh is open. The sum of their solid angles (van Oosterom and Strackee, "The Solid Angle of a Plane
+    /// Triangle", 1983).
+    pub(crate) fn winding(&self, triangles: Range<u32>, p: DVec3) -> f64 {
+        let p = self.frame.to_local(p);
+        let half_angle = |triangle: u32| {
+            let [a, b, c] = self.corners(triangle).map(|corner| corner - p);
+            let (la, lb, lc) = (a.length(), b.length(), c.length());
+            let across = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
+            libm::atan2(a.dot(b.cross(c)), across)
+        };
+        triangles.into_par_iter().map(half_angle).sum::<f64>() / (2.0 * PI)
     }
 
     /// Object of a triangle, and its index in the mesh.

@@ -20,6 +20,11 @@ pub struct Counters {
     /// Throughput (mean of the components, 1 at the camera, a branch's part of it) with which the cut paths arrived at that
     /// surface.
     pub cut_throughput: FixedSum,
+    /// The same of all paths, at the surface before that.
+    pub last_throughput: FixedSum,
+    /// Light that was found by the last segment of paths of full length, or by a ray at a light in its place (mean of the
+    /// components), in units of the brightest light of the scene.
+    pub last_light: FixedSum,
     /// Samples that were far brighter than those before them in their pixel and chunk; see
     /// [`FIREFLY`](crate::render::FIREFLY).
     pub fireflies: u64,
@@ -37,6 +42,8 @@ impl AddAssign for Counters {
         self.self_hits += other.self_hits;
         self.cut_paths += other.cut_paths;
         self.cut_throughput += other.cut_throughput;
+        self.last_throughput += other.last_throughput;
+        self.last_light += other.last_light;
         self.fireflies += other.fireflies;
         self.clamped += other.clamped;
         self.clamp_removed += other.clamp_removed;

@@ -26,6 +26,8 @@ pub struct PathTracer<'a, A> {
     pub(super) caustics: Option<Caustics>,
     /// In how many directions a path goes on from the first surface that lights are aimed at from.
     branches: u32,
+    /// One over the brightest light, 0 without lights.
+    light_scale: f64,
 }
 
 /// How the last direction of a path was chosen: what weighs light that it meets.
@@ -82,7 +84,19 @@ impl<'a, A: Accelerator> PathTracer<'a, A> {
         let light_choice = world.lights.has_choice();
         let caustics = if light_sampling { Caustics::of(world) } else { None };
         let branches = if light_sampling { world.requires.branches } else { 1 };
-        PathTracer { world, camera, accelerator, bounces, light_sampling, light_choice, caustics, branches }
+        let brightest = world.brightest();
+        let light_scale = if brightest > 0.0 { 1.0 / brightest } else { 0.0 };
+        PathTracer {
+            world,
+            camera,
+            accelerator,
+            bounces,
+            light_sampling,
+            light_choice,
+            caustics,
+            branches,
+            light_scale,
+        }
     }
 
     /// The radiance of sample `index` of the pixel (x, y).
@@ -154,6 +168,48 @@ impl<'a, A: Accelerator> PathTracer<'a, A> {
         segment: u32,
         counters: &mut Counters,
     ) -> Option<Surface> {
+        let before = path.radiance;
+        let met = self.meet(path, counters);
+        if segment == self.bounces {
+            self.count_last(path, before, counters);
+        }
+        let (at, hit) = met?;
+        if segment == self.bounces {
+            counters.cut_paths += 1;
+            counters.cut_throughput.add(path.part());
+            return None;
+        }
+        let varied = self.world.varied_material(&hit, &at);
+        let material = varied.unwrap_or_else(|| *self.world.material(hit.object));
+        let aims = self.light_sampling && !material.is_delta();
+        let surface = Surface { at, material, aims };
+        let before = path.radiance;
+        if aims {
+            let numbers = path.numbers.segment(segment);
+            let mut light = self.direct(path.ray.direction, &surface, &numbers, counters);
+            if let Some(caustics) = &self.caustics {
+                let left = self.bounces - segment;
+                light +=
+                    self.by_way_of_balls(caustics, path.ray.direction, &surface, left, &numbers, counters);
+            }
+            path.radiance += path.throughput * light;
+        }
+        if segment + 1 == self.bounces {
+            counters.last_throughput.add(path.part());
+            self.count_last(path, before, counters);
+        }
+        Some(surface)
+    }
+
+    /// Counts what was added to a path's radiance by its last segment.
+    fn count_last<S>(&self, path: &Path<S>, before: Rgb, counters: &mut Counters) {
+        let light = (path.radiance - before).element_sum() / 3.0 * path.share;
+        counters.last_light.add(light * self.light_scale);
+    }
+
+    /// Follows the path's ray to what it meets, and adds the light found there.
+    #[inline(always)]
+    fn meet<S: Sampler>(&self, path: &mut Path<S>, counters: &mut Counters) -> Option<(Interaction, Hit)> {
         counters.rays += 1;
         let Some(hit) = self.accelerator.intersect(&path.ray) else {
             // Asked only here, since nothing is hit by such a ray.
@@ -170,26 +226,7 @@ impl<'a, A: Accelerator> PathTracer<'a, A> {
         if emission != Rgb::ZERO {
             path.radiance += path.throughput * emission * self.weight(path, &hit, &at);
         }
-        if segment == self.bounces {
-            counters.cut_paths += 1;
-            counters.cut_throughput.add(path.throughput.element_sum() / 3.0 * path.share);
-            return None;
-        }
-        let varied = self.world.varied_material(&hit, &at);
-        let material = varied.unwrap_or_else(|| *self.world.material(hit.object));
-        let aims = self.light_sampling && !material.is_delta();
-        let surface = Surface { at, material, aims };
-        if aims {
-            let numbers = path.numbers.segment(segment);
-            let mut light = self.direct(path.ray.direction, &surface, &numbers, counters);
-            if let Some(caustics) = &self.caustics {
-                let left = self.bounces - segment;
-                light +=
-                    self.by_way_of_balls(caustics, path.ray.direction, &surface, left, &numbers, counters);
-            }
-            path.radiance += path.throughput * light;
-        }
-        Some(surface)
+        Some((at, hit))
     }
 
     /// Turns the path to where it goes on. Whether it does.
@@ -287,6 +324,11 @@ impl<'a, A: Accelerator> PathTracer<'a, A> {
 }
 
 impl<S> Path<'_, S> {
+    /// The part of a sample's throughput that it carries, mean of the components.
+    fn part(&self) -> f64 {
+        self.throughput.element_sum() / 3.0 * self.share
+    }
+
     /// Whether a hit is the surface that the ray left, as far as can be told: see [`Counters::self_hits`].
     fn meets_itself(&self, hit: &Hit) -> bool {
         if hit.primitive == self.ray.leaving { !self.ray.inward } else { hit.t <= self.offset }

@@ -36,6 +36,7 @@ where
         error,
         ended,
         features: None,
+        brightest: 1.0,
         build_seconds: 0.0,
         render_seconds,
     })

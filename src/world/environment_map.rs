@@ -52,6 +52,11 @@ impl EnvironmentMap {
         map
     }
 
+    /// The most that a component of its radiance is.
+    pub(super) fn brightest(&self) -> f64 {
+        self.strength * f64::from(self.texels.iter().flatten().fold(0.0, |most: f32, &x| most.max(x)))
+    }
+
     /// The radiance, if it is the same everywhere.
     pub(super) fn constant(&self) -> Option<Rgb> {
         let first = self.texels[0];

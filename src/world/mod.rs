@@ -88,6 +88,11 @@ impl World {
         self.emission[object as usize]
     }
 
+    /// The most that a component of the radiance of a light or of the sky is; 0 where there is no light.
+    pub fn brightest(&self) -> f64 {
+        self.emission.iter().fold(self.sky.brightest(), |most, emission| most.max(emission.max_element()))
+    }
+
     /// The surface where a ray arrives.
     #[inline]
     pub fn interaction(&self, ray: &Ray, hit: &Hit) -> Interaction {

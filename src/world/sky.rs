@@ -85,6 +85,14 @@ impl Sky {
         self.kind
     }
 
+    /// The most that a component of its radiance is.
+    pub(super) fn brightest(&self) -> f64 {
+        match &self.map {
+            Some(map) => map.brightest(),
+            None => self.sky.max(self.horizon).max(self.ground).max_element(),
+        }
+    }
+
     /// Radiance from the unit direction `d`.
     #[inline]
     pub fn radiance(&self, d: DVec3) -> Rgb {

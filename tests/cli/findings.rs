@@ -23,6 +23,8 @@ fn counts_are_in_the_last_event() {
     let cut = last["cut_paths"].as_u64().expect("a number");
     assert!(cut > 0);
     assert_eq!(last["cut_throughput"].as_f64(), Some(cut as f64 / (16.0 * 12.0 * 16.0)));
+    // One segment does not tell what a surface reflects.
+    assert!(last["cut_light"].is_null());
     // The rest sees the sky, which is brighter than the limit everywhere.
     assert_eq!(last["clamped_samples"].as_u64(), Some(16 * 12 * 16 - cut));
     assert_eq!(last["clamp"].as_f64(), Some(0.01));
@@ -35,6 +37,7 @@ fn without_a_limit_there_is_no_bias() {
     let ended = folder().run("floor.yaml 8 6 16 3 a.exr --json");
     let last: Value = serde_json::from_str(ended.stdout.lines().last().expect("a line")).expect("JSON");
     assert_eq!(last["clamped_samples"].as_u64(), Some(0));
+    assert!(last["cut_light"].as_f64() > Some(0.0));
     assert!(["clamp", "clamp_removed", "clamp_bias"].iter().all(|key| last[key].is_null()));
 }
 

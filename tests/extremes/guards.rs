@@ -250,6 +250,26 @@ fn a_camera_on_or_in_an_opaque_body_is_warned_of() {
 }
 
 #[test]
+fn a_camera_in_a_closed_opaque_mesh_is_warned_of() {
+    let dark =
+        "the camera is inside this object, which is opaque and has no light in it: the picture is black";
+    let mut desc = seen(vec![tetrahedron(DVec3::ZERO, 1.0)]);
+    desc.camera.position = DVec3::splat(0.2);
+    desc.camera.looking_at = DVec3::X;
+    assert_said(&desc, &[(false, Some(1), dark)]);
+    // In its box, but not in it; in glass; in one with a hole.
+    let mut other = desc.clone();
+    other.camera.position = DVec3::splat(0.8);
+    assert_said(&other, &[]);
+    let mut other = desc.clone();
+    other.objects[0].material.kind = MaterialKind::Refractive { color: grey(1.0), ratio: 1.5 };
+    assert_said(&other, &[]);
+    let ShapeDesc::TriangleMesh { mesh, .. } = &mut desc.objects[0].shape else { panic!("no mesh") };
+    std::sync::Arc::make_mut(mesh).triangles.pop();
+    assert_said(&desc, &[]);
+}
+
+#[test]
 fn sizes_and_places_beyond_the_range_of_numbers_are_refused() {
     for (shape, problem) in [
         (

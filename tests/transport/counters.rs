@@ -1,11 +1,13 @@
 //! What the path tracer counts, where it is known.
 
 use crate::support::build::*;
+use crate::support::watch::Unwatched;
 use pathtracer::accel::Accelerator;
 use pathtracer::accel::brute_force::BruteForce;
 use pathtracer::geometry::{Geometry, Hit, PrimitiveId, Ray};
 use pathtracer::integrator::{Counters, PathTracer};
 use pathtracer::math::DVec3;
+use pathtracer::render::{Settings, render};
 use pathtracer::sampling::{Independent, Sampler};
 use pathtracer::scene::desc::{MaterialKind, SceneDesc, ShapeDesc};
 use pathtracer::world::World;
@@ -79,6 +81,26 @@ fn in_a_closed_body_all_throughput_is_cut() {
             // The weight of a step is rho to a few roundings, far below the half step of 2^-33 of the sum.
             assert!((share - 0.5f64.powi(bounces as i32 - 1)).abs() <= 2f64.powi(-32), "{bounces}: {share}");
             assert_eq!(counters.self_hits, 0);
+        }
+    }
+}
+
+/// Inside a closed body with Le = 1 - rho of the light 1 a share of rho^N comes after N segments.
+#[test]
+fn the_light_that_a_closed_body_lacks_is_told() {
+    let shape = cuboid(DVec3::ZERO, DVec3::new(1.0, 2.0, 3.0), DVec3::ZERO);
+    for bounces in 2..=4 {
+        for light_sampling in [false, true] {
+            let body = (shape.clone(), glowing(grey(0.5), grey(0.5)));
+            let desc = scene(DVec3::new(0.1, 0.2, 0.3), DVec3::new(0.4, 0.1, -0.2), vec![body]);
+            let world = World::compile(&desc).expect("a valid scene");
+            let settings = Settings { light_sampling, ..Settings::new(16, 16, 64, bounces) };
+            let rendered = render(&world, &desc.camera, &settings, &Unwatched).expect("a picture");
+            let share = rendered.cut_light().expect("light");
+            // Found by chance, all light of a segment is the same; aimed at, it has a standard deviation of about its mean.
+            let deviation = if light_sampling { 4.0 / f64::sqrt(16.0 * 16.0 * 64.0) } else { 1e-9 };
+            let expected = 0.5f64.powi(bounces as i32);
+            assert!((share / expected - 1.0).abs() <= deviation, "{bounces} {light_sampling}: {share}");
         }
     }
 }

@@ -2,12 +2,13 @@
 
 use super::diagnostic;
 use crate::error::{Diagnostic, Severity};
-use crate::geometry::{Shape, Solid};
+use crate::geometry::{MeshSpace, Shape, Solid};
 use crate::material::Material;
 use crate::math::{Bounds, DVec3, EPSILON, Rgb};
 use crate::scene::desc::{ObjectDesc, SceneDesc};
 use crate::world::World;
 use crate::world::compile::LARGEST;
+use std::ops::Range;
 
 pub(super) fn check(world: &World, desc: &SceneDesc, width: u32) -> Vec<Diagnostic> {
     let mut found: Vec<Diagnostic> =
@@ -26,10 +27,12 @@ pub(super) fn check(world: &World, desc: &SceneDesc, width: u32) -> Vec<Diagnost
         let Some(height) = height_above(solid, position) else { continue };
         if height.abs() <= reach.max(error.max_element()) {
             found.push(on_the_surface(object, height, reach));
-        } else if height < 0.0 && is_dark_inside(world, index) {
+        } else if height < 0.0 && is_dark_inside(world, solid.object, world.geometry.solid_bounds(index)) {
             found.push(in_the_dark(object));
         }
     }
+    let dark = dark_meshes_around(world, position);
+    found.extend(dark.into_iter().filter_map(|object| desc.objects.get(object as usize)).map(in_the_dark));
     found
 }
 
@@ -126,18 +129,50 @@ fn on_the_surface(object: &ObjectDesc, height: f64, reach: f64) -> Diagnostic {
     )
 }
 
-/// Whether a body lets no light through, and neither shines nor may have a light in it.
-fn is_dark_inside(world: &World, solid: u32) -> bool {
+/// The objects of the closed meshes that a point is in and no light is.
+fn dark_meshes_around(world: &World, p: DVec3) -> Vec<u32> {
+    let geometry = &world.geometry;
+    let mut found = Vec::new();
+    let mut look = |space: &MeshSpace, p: DVec3, triangles: Range<u32>, object: u32, bounds: Bounds| {
+        let Bounds { min, max } = space.frame.bounds;
+        let local = space.frame.to_local(p);
+        let is_near = min.cmple(local).all() && local.cmple(max).all();
+        if is_near && is_dark_inside(world, object, bounds) && is_inside(space.winding(triangles, p)) {
+            found.push(object);
+        }
+    };
+    for (_, space) in geometry.world_spaces() {
+        let Bounds { min, max } = space.frame.bounds;
+        let bounds = Bounds { min: space.frame.to_world(min), max: space.frame.to_world(max) };
+        for (mesh, triangles) in space.mesh_ranges() {
+            look(space, p, triangles, mesh.object, bounds);
+        }
+    }
+    for solid in &geometry.solids {
+        let Shape::Instance(instance) = &solid.shape else { continue };
+        let space = geometry.space_of(instance);
+        let triangles = 0..space.triangles.len() as u32;
+        look(space, instance.to_mesh(p), triangles, solid.object, instance.bounds(space));
+    }
+    found
+}
+
+/// Whether a winding number is that of a place inside a closed mesh, to roundings.
+fn is_inside(winding: f64) -> bool {
+    (winding.abs() - 1.0).abs() < 1e-6
+}
+
+/// Whether an object lets no light through, and neither shines nor may have a light in the box around it.
+fn is_dark_inside(world: &World, object: u32, a: Bounds) -> bool {
     let geometry = &world.geometry;
     let is_light = |object: u32| world.emission(object) != Rgb::ZERO;
-    let a = geometry.solid_bounds(solid);
     let overlaps = |b: Bounds| a.min.cmple(b.max).all() && b.min.cmple(a.max).all();
     let mut solids = geometry.solids.iter().zip(0..);
     let has_light = solids
         .any(|(other, index)| is_light(other.object) && overlaps(geometry.solid_bounds(index)))
         || geometry.world_spaces().any(|(_, space)| space.meshes.iter().any(|mesh| is_light(mesh.object)));
-    let object = geometry.solids[solid as usize].object;
-    !matches!(world.material(object), Material::Refractive(_)) && !has_light
+    let is_glass = |material: &Material| matches!(material, Material::Refractive(_));
+    !world.varied.face_materials().any(is_glass) && !is_glass(world.material(object)) && !has_light
 }
 
 fn in_the_dark(object: &ObjectDesc) -> Diagnostic {
