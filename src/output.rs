@@ -1,16 +1,19 @@
 //! A film becomes a picture: exposure, curve, range, and what the file says about itself.
 
+mod aov;
 mod provenance;
 mod stamp;
 
 pub use crate::picture::{quantize, srgb_encode};
+pub use aov::Aov;
 pub use provenance::{PREFIX, Provenance, arguments};
 pub use stamp::{date_time, stamp};
 
 use crate::error::Result;
 use crate::film::Film;
 use crate::math::Rgb;
-use crate::picture::{Depth, Destination, Metadata, Picture, Pixels, f16, quantize_word};
+use crate::picture::{Denoiser, Depth, Destination, Metadata, Noisy, Picture, Pixels, f16, quantize_word};
+use crate::render::{FeaturePlanes, Rendered};
 
 /// Writes the means of a film alone; see [`picture`].
 pub fn write(film: &Film, exposure: f64, destination: &Destination) -> Result<()> {
@@ -74,6 +77,16 @@ fn to_float(value: f64) -> f32 {
 /// infinity enters a file.
 pub fn linear_floats(film: &Film) -> Vec<f32> {
     channels(film).map(to_float).collect()
+}
+
+/// The light of a render without its noise, as the denoiser guesses it by the albedo and the normals: R G B, row by row. The
+/// render must have collected features.
+pub fn denoised(rendered: &Rendered, denoiser: &Denoiser) -> Result<Vec<f32>> {
+    let guides = rendered.features.as_ref().map(FeaturePlanes::guides);
+    let [albedo, normal] = guides.unwrap_or_default();
+    let color = linear_floats(&rendered.film);
+    let (width, height) = (rendered.film.width(), rendered.film.height());
+    denoiser.denoise(&Noisy { width, height, color: &color, albedo: &albedo, normal: &normal })
 }
 
 /// The means of a film: R G B, row by row.

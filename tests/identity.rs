@@ -14,7 +14,8 @@ use std::path::Path;
 use tempfile::TempDir;
 
 /// The sample scenes.
-const NAMES: [&str; 6] = ["bigBalls", "glassBalls", "legacyBalls", "mirrorRoom", "objectScene", "cornellBox"];
+const NAMES: [&str; 7] =
+    ["bigBalls", "glassBalls", "legacyBalls", "mirrorRoom", "objectScene", "cornellBox", "gallery"];
 
 /// Samples of the default run, in chunks of this many: the tree of chunks has two leaves and a rest.
 const FEW: u64 = 5;

@@ -100,7 +100,13 @@ fn damaged_pictures_are_errors() {
         .expect("a file");
     fs::write(path("cut.hdr"), "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 5 +X 16\nab").expect("a file");
     fs::write(path("wrong.jpg"), &whole).expect("a file");
-    for name in ["truncated.tif", "empty.tif", "text.hdr", "huge.hdr", "cut.hdr", "missing.tif"] {
+    // Holes of a gigabyte, which take no room: nobody may look for a picture to their end.
+    for name in ["zeros.jpg", "zeros.tif", "zeros.hdr", "zeros.bmp"] {
+        fs::File::create(path(name)).and_then(|file| file.set_len(1 << 30)).expect("a file");
+    }
+    let damaged =
+        ["truncated.tif", "empty.tif", "text.hdr", "huge.hdr", "cut.hdr", "missing.tif", "wrong.jpg"];
+    for name in damaged.into_iter().chain(["zeros.jpg", "zeros.tif", "zeros.hdr", "zeros.bmp"]) {
         let error = read(&path(name)).expect_err(name);
         assert!(matches!(error, Error::Picture(_) | Error::Io { .. }), "{name}: {error}");
         assert!(error.to_string().starts_with("cannot read the picture "), "{error}");

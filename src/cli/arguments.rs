@@ -14,9 +14,10 @@ pub(super) use values::{ACCELS, BVHS, ISAS, PRECISIONS, name_of};
 
 use crate::accel::{BvhQuality, Isa, Precision};
 use crate::error::Error;
+use crate::output::Aov;
 use crate::picture::Depth;
 use crate::render::{
-    AccelKind, FeatureKind, MAX_BOUNCES, MAX_SAMPLES, MAX_SIDE, MAX_THREADS, SHORT_SCRAMBLE_LENGTH, Settings,
+    AccelKind, MAX_BOUNCES, MAX_SAMPLES, MAX_SIDE, MAX_THREADS, SHORT_SCRAMBLE_LENGTH, Settings,
 };
 use crate::sampling::SamplerKind;
 use clap::{CommandFactory, FromArgMatches, Parser};
@@ -24,7 +25,7 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 use std::time::Duration;
-use values::{DEPTHS, FEATURES, SAMPLERS, SWITCH, choice, positive, stops, time, whole, whole_or_none};
+use values::{AOVS, DEPTHS, SAMPLERS, SWITCH, choice, positive, stops, time, whole, whole_or_none};
 
 /// The positional arguments of a render, as messages name them.
 const POSITIONALS: [&str; 6] = ["SCENE", "WIDTH", "HEIGHT", "SAMPLES", "BOUNCES", "IMAGE"];
@@ -153,7 +154,7 @@ pub(super) struct RenderArguments {
     #[arg(long, value_name = "FILE")]
     error_bars: Option<PathBuf>,
     /// Points that each of a pixel's eight scrambles gets at first [default: 128; 2 where it costs nothing, and with
-    /// --noise and --error-bars]
+    /// --noise, --error-bars and --aov error]
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(1..))]
     scramble_length: Option<u32>,
     /// Whether the error of the picture is estimated from a few pixels where its samples alone can't tell it, for about 3 %
@@ -167,9 +168,10 @@ pub(super) struct RenderArguments {
     /// [default: 8, of .exr and .hdr float]
     #[arg(long, value_name = "NAME", value_parser = choice(&DEPTHS))]
     depth: Option<Depth>,
-    /// Channels of an EXR beside the light: albedo, normal, depth, position, object; several with commas
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = choice(&FEATURES))]
-    aov: Vec<FeatureKind>,
+    /// Channels of an EXR beside the light: albedo, normal, depth, position, object, samples, error;
+    /// several with commas
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = choice(&AOVS))]
+    aov: Vec<Aov>,
     /// Remove noise by Open Image Denoise; the noisy picture is kept beside, as NAME.noisy
     #[arg(long)]
     denoise: bool,
@@ -196,7 +198,7 @@ pub(super) struct Job {
     pub(super) exposure: f64,
     pub(super) depth: Option<Depth>,
     /// What goes beside the light into an EXR.
-    pub(super) aov: Vec<FeatureKind>,
+    pub(super) aov: Vec<Aov>,
     /// Whether the picture is denoised.
     pub(super) denoise: bool,
     /// Whether the picture says when and where it was made.
@@ -243,6 +245,7 @@ impl RenderArguments {
             let message = "0 samples, which means no limit, can only be given with --noise or --time";
             return Err(usage(message).into());
         }
+        let errors = self.error_bars.is_some() || self.aov.contains(&Aov::Error);
         let defaults =
             Settings::new(u32::try_from(width)?, u32::try_from(height)?, samples, u32::try_from(bounces)?);
         let settings = Settings {
@@ -257,12 +260,10 @@ impl RenderArguments {
             light_sampling: self.light_sampling.unwrap_or(defaults.light_sampling),
             clamp: self.clamp,
             error_estimate: self.error_estimate.unwrap_or(true),
-            scramble_length: self
-                .scramble_length
-                .or(self.error_bars.is_some().then_some(SHORT_SCRAMBLE_LENGTH)),
+            scramble_length: self.scramble_length.or(errors.then_some(SHORT_SCRAMBLE_LENGTH)),
             noise: self.noise,
             time: self.time,
-            features: self.denoise || !self.aov.is_empty(),
+            features: self.denoise || self.aov.iter().any(|aov| matches!(aov, Aov::Feature(_))),
             ..defaults
         };
         let RenderArguments { exposure, depth, aov, denoise, stamp, quiet, json, error_bars, .. } = self;

@@ -8,7 +8,7 @@ use super::target::Target;
 use super::{describe, findings, interrupt};
 use crate::error::{Error, Result};
 use crate::film::PictureError;
-use crate::output::{self, Provenance};
+use crate::output::{self, Aov, Provenance};
 use crate::picture::{Destination, Format};
 use crate::render::{Ended, Rendered, in_pool, render};
 use crate::scene;
@@ -77,6 +77,10 @@ pub(super) fn run(job: &Job) -> anyhow::Result<u8> {
         say(
             "warning: no error bars were written: they need 16 samples, none of which may be too large for f32",
         );
+    }
+
+    if job.aov.contains(&Aov::Error) && Aov::Error.channels(&rendered).is_empty() {
+        say("warning: the picture has no channel of errors: they need 16 samples");
     }
 
     let build = compile + rendered.build_seconds;

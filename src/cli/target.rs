@@ -3,7 +3,7 @@
 use super::arguments::Job;
 use crate::error::{Error, Result};
 use crate::output::{self, Provenance};
-use crate::picture::{Denoiser, Depth, Destination, Format, Metadata, Noisy, Value};
+use crate::picture::{Denoiser, Depth, Destination, Format, Metadata, Value};
 use crate::render::{Rendered, in_pool};
 use std::path::Path;
 
@@ -43,12 +43,7 @@ impl Target {
             return write(&self.picture, &light, None, job, provenance, rendered);
         };
         write(noisy_place, &light, None, job, provenance, rendered)?;
-        let guides = rendered.features.as_ref().map(|features| features.guides());
-        let [albedo, normal] = guides.unwrap_or_default();
-        let color = output::linear_floats(&rendered.film);
-        let (width, height) = (rendered.film.width(), rendered.film.height());
-        let noisy = Noisy { width, height, color: &color, albedo: &albedo, normal: &normal };
-        let clean: Vec<f64> = denoiser.denoise(&noisy)?.into_iter().map(f64::from).collect();
+        let clean: Vec<f64> = output::denoised(rendered, denoiser)?.into_iter().map(f64::from).collect();
         write(&self.picture, &clean, Some(denoiser), job, provenance, rendered)
     }
 }
@@ -78,9 +73,7 @@ fn write(
     let size = (rendered.film.width(), rendered.film.height());
     let mut picture = output::picture(size, light, job.exposure, destination.depth());
     picture.metadata = metadata(destination, denoiser, job, provenance, rendered);
-    if let Some(features) = &rendered.features {
-        picture.channels = features.channels(&job.aov);
-    }
+    picture.channels = job.aov.iter().flat_map(|aov| aov.channels(rendered)).collect();
     in_pool(&job.settings, || destination.write_picture(&picture))
 }
 

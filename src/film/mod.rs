@@ -67,6 +67,11 @@ impl Film {
         self.nodes.iter().map(|node| node.sums.samples).sum()
     }
 
+    /// Samples of a pixel, counted row by row from the top left.
+    pub fn samples_of(&self, pixel: usize) -> u64 {
+        self.stopped_counts(pixel).map_or_else(|| self.samples(), |counts| counts.iter().sum())
+    }
+
     /// Samples that every pixel has in each scramble, where no block has stopped; none where that is not known.
     pub fn counts(&self) -> [u64; SCRAMBLES] {
         if self.nodes.iter().any(|node| node.sums.greys == Greys::Unknown) {

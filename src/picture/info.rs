@@ -3,7 +3,8 @@
 use super::Format;
 use super::metadata::{Metadata, Value};
 use super::oiio;
-use crate::error::{Error, Result};
+use super::read::{check_start, failed, refused};
+use crate::error::Result;
 use exr::meta::MetaData;
 use exr::meta::attribute::{AttributeValue, Text};
 use exr::meta::header::Header;
@@ -31,14 +32,14 @@ impl Info {
     /// Reads it from the file at `path`. Errors: a file that can't be read or is damaged; a format
     /// that needs OpenImageIO, without it.
     pub fn read(path: &Path) -> Result<Info> {
-        let failed = |source| Error::Io { action: "read the picture".into(), path: path.into(), source };
-        let file = BufReader::new(File::open(path).map_err(failed)?);
-        let damaged =
-            |why: String| Error::Picture(format!("cannot read the picture {}: {why}", path.display()));
+        let damaged = refused(path);
+        let file = BufReader::new(File::open(path).map_err(failed(path))?);
         match Format::of(path) {
             Ok(Format::Png) => png(file).map_err(|error| damaged(error.to_string())),
             Ok(Format::Exr) => exr(file).map_err(|error| damaged(error.to_string())),
             other => {
+                let other = other.ok();
+                check_start(path, other)?;
                 let ([width, height], metadata) = oiio::info(path).map_err(damaged)?;
                 let format = other.map_or("a picture", Format::name);
                 Ok(Info { format, width, height, channels: Vec::new(), metadata })

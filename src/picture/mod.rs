@@ -101,6 +101,17 @@ impl Format {
         self.row().3
     }
 
+    /// What its files begin with, one of these; none where the format is not read by OpenImageIO.
+    fn beginnings(self) -> &'static [&'static [u8]] {
+        match self {
+            // Little and big endian, classic and with offsets of 64 bits.
+            Format::Tiff => &[b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"],
+            Format::Hdr => &[b"#?"],
+            Format::Jpeg => &[b"\xff\xd8\xff"],
+            Format::Png | Format::Exr => &[],
+        }
+    }
+
     /// Whether OpenImageIO writes it.
     fn needs_library(self) -> bool {
         !matches!(self, Format::Png | Format::Exr)

@@ -4,7 +4,7 @@ use super::{Format, Pixels, oiio, srgb_decode};
 use crate::error::{Error, Result};
 use image::{DynamicImage, ImageDecoder, ImageReader, Limits};
 use std::fs::File;
-use std::io::BufReader;
+use std::io::{self, BufReader, Read};
 use std::path::Path;
 
 /// The pixels of a file, R G B, row by row from the top left. Grey becomes R = G = B; alpha is left out.
@@ -28,19 +28,44 @@ const MOST_SIDE: u32 = 1 << 20;
 /// Reads the picture at `path`. Errors: a file that can't be read, is damaged, has no pixels or is too large; a
 /// format that needs OpenImageIO, without it.
 pub fn read(path: &Path) -> Result<Decoded> {
-    let failed = |source| Error::Io { action: "read the picture".into(), path: path.into(), source };
-    let refused = |why: String| Error::Picture(format!("cannot read the picture {}: {why}", path.display()));
-    let file = BufReader::new(File::open(path).map_err(failed)?);
+    let (failed, refused) = (failed(path), refused(path));
+    let file = BufReader::new(File::open(path).map_err(&failed)?);
     let format = match Format::of(path) {
         Ok(Format::Png) => image::ImageFormat::Png,
         Ok(Format::Exr) => image::ImageFormat::OpenExr,
-        _ => return oiio::read(path).map_err(refused),
+        other => {
+            check_start(path, other.ok())?;
+            return oiio::read(path).map_err(refused);
+        }
     };
     decode(ImageReader::with_format(file, format)).map_err(|error| match error {
         image::ImageError::IoError(source) => failed(source),
         other => refused(other.to_string()),
     })
 }
+
+/// Refuses what does not begin as its extension says: OpenImageIO would try all its other formats, and search a file of
+/// zeros to its end. Of extensions that only the library knows, a file that begins with zeros is refused.
+pub(super) fn check_start(path: &Path, format: Option<Format>) -> Result<()> {
+    let mut start = Vec::new();
+    File::open(path).and_then(|file| file.take(START).read_to_end(&mut start)).map_err(failed(path))?;
+    let (name, is_one) = match format {
+        Some(format) => (format.name(), format.beginnings().iter().any(|bytes| start.starts_with(bytes))),
+        None => ("picture", start.iter().any(|&byte| byte != 0)),
+    };
+    if is_one { Ok(()) } else { Err(refused(path)(format!("this is no {name} file"))) }
+}
+
+pub(super) fn failed(path: &Path) -> impl Fn(io::Error) -> Error {
+    move |source| Error::Io { action: "read the picture".into(), path: path.into(), source }
+}
+
+pub(super) fn refused(path: &Path) -> impl Fn(String) -> Error {
+    move |why| Error::Picture(format!("cannot read the picture {}: {why}", path.display()))
+}
+
+/// Bytes in which the beginning of a file is looked for.
+const START: u64 = 64;
 
 fn decode(mut reader: ImageReader<BufReader<File>>) -> image::ImageResult<Decoded> {
     let mut limits = Limits::no_limits();

@@ -41,6 +41,32 @@ fn features_are_channels_beside_the_same_light() {
     assert_eq!(all["Normal.X"][corner], 0.0);
 }
 
+#[test]
+fn samples_and_errors_are_channels() {
+    let folder = Folder::new();
+    let options = "--noise 0.01 --error-bars bars.exr --aov samples,error";
+    folder.run(&format!("ball.yaml 40 24 256 4 a.exr {options}")).succeeds();
+    let (all, bars) = (channels(&folder, "a.exr"), channels(&folder, "bars.exr"));
+    // Error bars have the mean in R, the standard error in G.
+    assert_eq!(all["error"], bars["G"]);
+    let samples = &all["samples"];
+    assert!(samples.iter().all(|&count| (16.0..=256.0).contains(&count)));
+    assert!(samples.iter().any(|&count| count != samples[0]), "blocks stop after different numbers");
+    folder.run("ball.yaml 8 6 40 4 b.exr --aov samples,error").succeeds();
+    let all = channels(&folder, "b.exr");
+    assert_eq!(all["samples"], [40.0; 48]);
+    assert!(all["error"].iter().any(|&error| error > 0.0));
+}
+
+#[test]
+fn errors_of_too_few_samples_are_left_out_and_said_so() {
+    let folder = Folder::new();
+    let ended = folder.run("ball.yaml 8 6 8 4 a.exr --aov error");
+    ended.succeeds();
+    assert!(ended.stderr.contains("no channel of errors: they need 16 samples"), "{}", ended.stderr);
+    assert_eq!(channels(&folder, "a.exr").len(), 3);
+}
+
 /// Of what shines and reflects nothing, the albedo is the light: so both see the same edges if they see by the same rays.
 #[test]
 fn features_see_by_the_rays_of_the_light() {

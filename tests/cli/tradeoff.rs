@@ -41,7 +41,7 @@ fn json_and_csv_hold_the_same_figures() {
     let figures: Vec<&Value> = events.iter().filter(|event| event["event"] == "figure").collect();
     let csv = String::from_utf8(folder.read("a.csv")).expect("UTF-8");
     assert_eq!(csv.lines().count(), figures.len() + 1);
-    assert!(csv.lines().all(|line| line.split(',').count() == 14));
+    assert!(csv.lines().all(|line| line.split(',').count() == 15));
     // Five variants with two numbers of samples each.
     for measure in ["seconds", "mse", "rel_mse", "trimmed_rel_mse", "flip", "relative_efficiency"] {
         assert_eq!(figures.iter().filter(|figure| figure["measure"] == measure).count(), 10, "{measure}");

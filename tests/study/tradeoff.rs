@@ -3,6 +3,7 @@
 use crate::support::build::{ball, diffuse, glowing, grey, scene, sky};
 use pathtracer::accel::Precision;
 use pathtracer::math::DVec3;
+use pathtracer::picture::Denoiser;
 use pathtracer::render::AccelKind;
 use pathtracer::sampling::SamplerKind;
 use pathtracer::scene::desc::SceneDesc;
@@ -23,6 +24,7 @@ fn grid() -> Grid {
         light_sampling: vec![true],
         clamps: vec![None],
         noises: vec![None],
+        denoise: vec![false],
         crossed: false,
     }
 }
@@ -53,6 +55,30 @@ fn lit_ball() -> SceneDesc {
     desc.environment.ground = grey(0.0);
     desc.camera.fov = 0.2;
     desc
+}
+
+#[test]
+fn denoising_is_named_and_counted_among_the_settings() {
+    let grid = Grid { denoise: vec![false, true], ..grid() };
+    let variants = grid.variants();
+    let differences: Vec<String> = variants.iter().map(|variant| variant.difference(&variants[0])).collect();
+    assert_eq!(differences, ["default", "denoised"]);
+    assert!(variants[1].options().ends_with(" --denoise"));
+}
+
+/// Runs where the denoiser is found.
+#[test]
+fn the_bias_of_a_denoiser_counts_as_error() {
+    if Denoiser::load().is_err() {
+        println!("no denoiser here: nothing is tested");
+        return;
+    }
+    let grid = Grid { denoise: vec![false, true], samples: vec![1, 64], ..grid() };
+    let result = run(&lit_ball(), &options(grid));
+    let errors: Vec<f64> = result.rows.iter().map(|row| row.rel_mse.value).collect();
+    // Of one sample noise is what lacks, of 64 the denoiser blurs what is no noise any more.
+    assert!(errors[2] < errors[0], "{errors:?}");
+    assert!(errors[3] > 0.0, "{errors:?}");
 }
 
 /// The inside of a ball with Le = 1 - rho: after N segments every path brings 1 - rho^N.

@@ -54,6 +54,9 @@ pub(in crate::cli) struct TradeoffArguments {
     /// Errors at which blocks of pixels stop, beside none; the samples are then the most of a pixel [default: 0.1]
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = positive)]
     noise: Vec<f64>,
+    /// Also denoise the pictures, whose bias counts as error
+    #[arg(long)]
+    denoise: bool,
     /// Try all combinations of settings instead of one at a time
     #[arg(long)]
     all: bool,
@@ -148,6 +151,7 @@ impl TradeoffArguments {
             light_sampling: distinct(&self.light_sampling),
             clamps: std::iter::once(None).chain(distinct(&self.clamp).into_iter().map(Some)).collect(),
             noises: std::iter::once(None).chain(noise.into_iter().map(Some)).collect(),
+            denoise: if self.denoise { vec![false, true] } else { vec![false] },
             crossed: self.all,
         };
         Ok(TradeoffJob {

@@ -1,6 +1,7 @@
 //! Values of options: names in tables, numbers in ranges.
 
 use crate::accel::{BvhQuality, Isa, Precision};
+use crate::output::Aov;
 use crate::picture::Depth;
 use crate::render::{AccelKind, FeatureKind, MIN_TIME};
 use crate::sampling::SamplerKind;
@@ -33,12 +34,14 @@ pub(super) const DEPTHS: [(&str, Depth); 4] = [
     (Depth::Half.name(), Depth::Half),
     (Depth::Float.name(), Depth::Float),
 ];
-pub(super) const FEATURES: [(&str, FeatureKind); 5] = [
-    (FeatureKind::Albedo.name(), FeatureKind::Albedo),
-    (FeatureKind::Normal.name(), FeatureKind::Normal),
-    (FeatureKind::Depth.name(), FeatureKind::Depth),
-    (FeatureKind::Position.name(), FeatureKind::Position),
-    (FeatureKind::Object.name(), FeatureKind::Object),
+pub(super) const AOVS: [(&str, Aov); 7] = [
+    (FeatureKind::Albedo.name(), Aov::Feature(FeatureKind::Albedo)),
+    (FeatureKind::Normal.name(), Aov::Feature(FeatureKind::Normal)),
+    (FeatureKind::Depth.name(), Aov::Feature(FeatureKind::Depth)),
+    (FeatureKind::Position.name(), Aov::Feature(FeatureKind::Position)),
+    (FeatureKind::Object.name(), Aov::Feature(FeatureKind::Object)),
+    (Aov::Samples.name(), Aov::Samples),
+    (Aov::Error.name(), Aov::Error),
 ];
 pub(super) const SWITCH: [(&str, bool); 2] = [("on", true), ("off", false)];
 

@@ -204,7 +204,7 @@ fn aims(rung: &Rung) -> &[Leak] {
 /// The figures as CSV (RFC 4180, lines ended by a line feed), with a line of headings.
 pub fn csv(figures: &[Figure]) -> String {
     let mut text =
-        "accelerator,precision,sampler,light_sampling,bounces,clamp,noise,samples,measure,unit,value,low,high,\
+        "accelerator,precision,sampler,light_sampling,bounces,clamp,noise,denoise,samples,measure,unit,value,low,high,\
                     standard_error\n"
             .to_owned();
     let optional = |value: Option<String>| value.unwrap_or_default();
@@ -217,6 +217,7 @@ pub fn csv(figures: &[Figure]) -> String {
             variant.bounces.to_string(),
             optional(variant.clamp.map(|limit| limit.to_string())),
             optional(variant.noise.map(|target| target.to_string())),
+            variant.denoise.to_string(),
             optional(samples.map(|samples| samples.to_string())),
             (*measure).into(),
             quoted(unit),

@@ -23,6 +23,8 @@ pub struct Variant {
     pub clamp: Option<f64>,
     /// The error at which blocks of pixels stop; then the number of samples is the most of a pixel.
     pub noise: Option<f64>,
+    /// Whether the picture is denoised, whose bias counts as error.
+    pub denoise: bool,
 }
 
 /// A variant as tables, CSV and JSON name it.
@@ -42,6 +44,8 @@ pub struct VariantRecord {
     pub clamp: Option<f64>,
     /// The error at which blocks of pixels stop, or null.
     pub noise: Option<f64>,
+    /// Whether the picture is denoised.
+    pub denoise: bool,
 }
 
 impl Variant {
@@ -54,6 +58,7 @@ impl Variant {
             light_sampling: self.light_sampling,
             clamp: self.clamp,
             noise: self.noise,
+            features: self.denoise,
             isa: frame.isa,
             threads: Some(frame.threads),
             seed,
@@ -72,6 +77,7 @@ impl Variant {
             bounces: self.bounces,
             clamp: self.clamp,
             noise: self.noise,
+            denoise: self.denoise,
         }
     }
 
@@ -81,8 +87,9 @@ impl Variant {
         let lights = if self.light_sampling { "on" } else { "off" };
         let clamp = self.clamp.map(|limit| format!(", clamp {limit}")).unwrap_or_default();
         let noise = self.noise.map(|target| format!(", noise {target}")).unwrap_or_default();
+        let denoised = if self.denoise { ", denoised" } else { "" };
         format!(
-            "{accelerator} {precision}, {sampler}, light sampling {lights}, {bounces} bounces{clamp}{noise}"
+            "{accelerator} {precision}, {sampler}, light sampling {lights}, {bounces} bounces{clamp}{noise}{denoised}"
         )
     }
 
@@ -106,6 +113,8 @@ impl Variant {
         add(own.clamp != other.clamp, clamp);
         let noise = own.noise.map_or("fixed samples".to_owned(), |target| format!("noise {target}"));
         add(own.noise != other.noise, noise);
+        let denoised = if own.denoise { "denoised" } else { "not denoised" };
+        add(own.denoise != other.denoise, denoised.into());
         if words.is_empty() { "default".into() } else { words.join(", ") }
     }
 
@@ -125,6 +134,9 @@ impl Variant {
         add(self.light_sampling != plain.light_sampling, "light-sampling", lights);
         add(self.clamp.is_some(), "clamp", &self.clamp.unwrap_or(0.0).to_string());
         add(self.noise.is_some(), "noise", &self.noise.unwrap_or(0.0).to_string());
+        if self.denoise {
+            options += " --denoise";
+        }
         options
     }
 }
@@ -161,6 +173,8 @@ pub struct Grid {
     pub clamps: Vec<Option<f64>>,
     /// Errors at which blocks stop; the first is none, with all samples everywhere.
     pub noises: Vec<Option<f64>>,
+    /// Whether pictures are denoised; the first is not, whose mean is taken for the truth.
+    pub denoise: Vec<bool>,
     /// Whether all combinations are tried; else one knob at a time is turned away from its default.
     pub crossed: bool,
 }
@@ -176,6 +190,7 @@ impl Grid {
             light_sampling: self.light_sampling[0],
             clamp: self.clamps[0],
             noise: self.noises[0],
+            denoise: self.denoise[0],
         }];
         self.turn(&mut all, &self.accels, |variant, value| variant.accel = value);
         self.turn(&mut all, &self.precisions, |variant, value| variant.precision = value);
@@ -184,6 +199,7 @@ impl Grid {
         self.turn(&mut all, &self.bounces, |variant, value| variant.bounces = value);
         self.turn(&mut all, &self.clamps, |variant, value| variant.clamp = value);
         self.turn(&mut all, &self.noises, |variant, value| variant.noise = value);
+        self.turn(&mut all, &self.denoise, |variant, value| variant.denoise = value);
         all
     }
 
@@ -198,8 +214,10 @@ impl Grid {
         }
     }
 
-    /// The variant with the same settings whose mean is the truth: with the longest paths, without a limit and with all samples.
+    /// The variant with the same settings whose mean is the truth: with the longest paths, without a limit, with all samples
+    /// and not denoised.
     pub(super) fn truth_of(&self, variant: &Variant) -> Variant {
-        Variant { bounces: self.bounces[0], clamp: self.clamps[0], noise: self.noises[0], ..*variant }
+        let (bounces, clamp, noise) = (self.bounces[0], self.clamps[0], self.noises[0]);
+        Variant { bounces, clamp, noise, denoise: self.denoise[0], ..*variant }
     }
 }

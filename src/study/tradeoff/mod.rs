@@ -179,15 +179,18 @@ fn judge(variants: &[Variant], shots: &[Vec<Shot>], options: &Options) -> (Truth
     let is_right = |i: &usize| partner(&variants[*i]) == Some(*i);
     let right: Vec<&[Shot]> = (0..variants.len()).filter(is_right).map(best).collect();
     let truth = Truth::mean(&right, width);
-    let bias: Vec<Option<SquaredBias>> = (0..variants.len())
+    // The bias of a denoiser falls with more samples; that of other settings is best seen with the most.
+    let shown_by = |i: usize| if variants[i / counts].denoise { i } else { i - i % counts + counts - 1 };
+    let bias: Vec<Option<SquaredBias>> = (0..shots.len())
         .into_par_iter()
         .map(|i| {
-            let right = partner(&variants[i]).filter(|&right| right != i)?;
-            Some(SquaredBias::of(best(i), best(right), &truth))
+            let right = partner(&variants[i / counts]).filter(|&right| right != i / counts)?;
+            let right = &shots[right * counts + i % counts];
+            (shown_by(i) == i).then(|| SquaredBias::of(&shots[i], right, &truth))
         })
         .collect();
     let of = |(i, shots): (usize, &Vec<Shot>)| {
-        Errors::across_seeds(shots, &truth, bias[i / counts].as_ref(), width)
+        Errors::across_seeds(shots, &truth, bias[shown_by(i)].as_ref(), width)
     };
     let errors = shots.par_iter().enumerate().map(of).collect();
     (truth, errors)

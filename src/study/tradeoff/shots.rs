@@ -2,18 +2,20 @@
 
 use super::grid::{Frame, Variant};
 use crate::error::{Error, Result};
-use crate::output::linear_floats;
+use crate::output::{denoised, linear_floats};
+use crate::picture::Denoiser;
 use crate::render::{Rendered, available_bytes, render};
 use crate::scene::desc::CameraDesc;
 use crate::study::rounds::Nobody;
 use crate::world::World;
+use std::time::Instant;
 
 /// One render.
 #[derive(Clone, Debug)]
 pub struct Shot {
     /// The picture: linear R G B, row by row.
     pub pixels: Vec<f32>,
-    /// Seconds from the first ray to the last.
+    /// Seconds from the first ray to the last, and for denoising where that is asked for.
     pub seconds: f64,
     /// Seconds to build the accelerator.
     pub build_seconds: f64,
@@ -22,13 +24,18 @@ pub struct Shot {
 }
 
 impl Shot {
-    fn of(rendered: &Rendered) -> Shot {
-        Shot {
-            pixels: linear_floats(&rendered.film),
-            seconds: rendered.render_seconds,
+    fn of(rendered: &Rendered, denoiser: Option<&Denoiser>) -> Result<Shot> {
+        let start = Instant::now();
+        let (pixels, denoising) = match denoiser {
+            Some(denoiser) => (denoised(rendered, denoiser)?, start.elapsed().as_secs_f64()),
+            None => (linear_floats(&rendered.film), 0.0),
+        };
+        Ok(Shot {
+            pixels,
+            seconds: rendered.render_seconds + denoising,
             build_seconds: rendered.build_seconds,
             rays: rendered.counters.rays,
-        }
+        })
     }
 }
 
@@ -55,12 +62,15 @@ pub(super) fn take(
 ) -> Result<Vec<Vec<Shot>>> {
     let rounds = (seeds.end - seeds.start) as usize;
     check_memory(frame, configurations.len(), rounds)?;
+    let denoiser = variants.iter().any(|variant| variant.denoise).then(Denoiser::load).transpose()?;
     let mut shots: Vec<Vec<Shot>> = configurations.iter().map(|_| Vec::with_capacity(rounds)).collect();
     for (round, seed) in seeds.enumerate() {
         tell(round, rounds);
         for (configuration, shots) in configurations.iter().zip(&mut shots) {
-            let settings = variants[configuration.variant].settings(frame, configuration.samples, seed);
-            shots.push(Shot::of(&render(world, camera, &settings, &Nobody)?));
+            let variant = &variants[configuration.variant];
+            let settings = variant.settings(frame, configuration.samples, seed);
+            let rendered = render(world, camera, &settings, &Nobody)?;
+            shots.push(Shot::of(&rendered, denoiser.as_ref().filter(|_| variant.denoise))?);
         }
     }
     Ok(shots)
