@@ -2,17 +2,17 @@
 //! binned, and what the density puts into each bin is estimated by uniform directions, rays and `pdf_surface`.
 
 use crate::support::build::*;
-use crate::support::random::Sample4;
+use crate::support::random::{Random, Sample4};
 use crate::support::stats::{SIGNIFICANCE, chi_square_tail, sidak};
 use pathtracer::accel::Accelerator;
 use pathtracer::accel::brute_force::BruteForce;
 use pathtracer::geometry::{PrimitiveId, Ray};
-use pathtracer::math::{DVec3, Frame};
+use pathtracer::math::{Bounds, DVec3, Frame};
 use pathtracer::sampling::warp::{cone_pdf, square_to_cone};
 use pathtracer::sampling::{Independent, Sampler};
 use pathtracer::scene::desc::{EnvironmentDesc, MaterialKind, SceneDesc, ShapeDesc};
 use pathtracer::world::World;
-use pathtracer::world::light::{LightTarget, Receiver};
+use pathtracer::world::light::{LightTarget, LightTree, Receiver, TreeItem};
 use rayon::prelude::*;
 
 /// How finely directions are binned, and how many are.
@@ -146,6 +146,18 @@ fn cases() -> Vec<(&'static str, SceneDesc, View)> {
         ],
         vec![[0, 1, 2], [0, 2, 3], [4, 5, 6]],
     );
+    // A sheet overhead that bends so little that it hides nothing of itself.
+    let side = 9u32;
+    let corner = |i: u32| {
+        let (x, y) = (f64::from(i % side) * 0.5 - 2.0, f64::from(i / side) * 0.5 - 2.0);
+        [x, y, 1.0 + 0.1 * x * y + 0.05 * x * x]
+    };
+    let cell = |i: u32| {
+        let [a, b, c, d] = [i, i + 1, i + side, i + side + 1];
+        [[a, b, d], [a, d, c]]
+    };
+    let cells = (0..side * (side - 1)).filter(|i| i % side < side - 1);
+    let sheet = mesh((0..side * side).map(corner).collect(), cells.flat_map(cell).collect());
     let row = |count: usize| {
         // A ring, on which no ball hides another.
         let place = |i: usize| {
@@ -178,6 +190,7 @@ fn cases() -> Vec<(&'static str, SceneDesc, View)> {
         ("a small box", only(vec![box_of(0.02)]), View::of_ball(at, 0.02)),
         ("a box from inside", only(vec![cuboid(at * 0.1, DVec3::splat(2.0), turned)]), View::ALL),
         ("a mesh", only(vec![triangles]), View::ALL),
+        ("a mesh of many triangles", only(vec![sheet]), View::ALL),
         ("two balls", only(vec![ball(at, 0.3), ball(DVec3::new(-1.0, 0.5, 0.5), 0.2)]), View::ALL),
         ("twelve balls", row(12), View::ALL),
         ("twenty balls", row(20), View::ALL),
@@ -204,6 +217,56 @@ fn lights_are_sampled_with_the_density_they_state() {
 #[ignore = "long: a million samples in 80 x 160 bins"]
 fn lights_are_sampled_with_the_density_they_state_in_fine_bins() {
     assert_densities(&FINE);
+}
+
+/// Small lights in a cube around the receiver, some without power.
+fn items(count: u32) -> Vec<TreeItem> {
+    let mut random = Random::new(u64::from(count));
+    let item = |i: u32| {
+        let (center, size) = (random.in_cube() * 3.0, random.between(0.0, 0.1));
+        let bounds = Bounds { min: center - size, max: center + size };
+        TreeItem { bounds, power: if i % 5 == 0 { 0.0 } else { random.between(0.1, 10.0) } }
+    };
+    (0..count).map(item).collect()
+}
+
+#[test]
+fn a_tree_chooses_each_light_with_the_probability_it_states() {
+    // Beyond 2^20 several share a leaf.
+    for count in [1, 2, 3, 17, 1000, (1 << 20) + 3] {
+        let items = items(count);
+        let tree = LightTree::new(&items);
+        for position in [DVec3::ZERO, DVec3::new(2.0, -1.0, 0.5), DVec3::splat(100.0), DVec3::splat(-5.0)] {
+            let at = receiver(position);
+            let all = (0..count).map(|item| tree.probability(&at, item));
+            let total = all.sum::<f64>();
+            // Sums of products of up to 20 shares, each rounded twice or so. Where lights lie below the receiver, the ball
+            // around several may reach above it and theirs not: then nothing is chosen.
+            let (all_above, has_power) = (position.z < -4.0, items.iter().any(|item| item.power > 0.0));
+            assert!(total < 1.0 + 1e-9, "{count}: {total}");
+            assert!(total > 1.0 - 1e-9 || !(all_above && has_power), "{count}: {total}");
+            for i in 0..1000 {
+                let u = (f64::from(i) + 0.5) / 1000.0;
+                let Some((item, probability, rest)) = tree.sample(&at, u) else { continue };
+                assert_eq!(probability, tree.probability(&at, item), "{count}: {item}");
+                assert!(probability > 0.0 && (0.0..1.0).contains(&rest), "{count}: {probability} {rest}");
+            }
+        }
+    }
+}
+
+/// Whatever may send light to the receiver is chosen at times.
+#[test]
+fn a_tree_leaves_out_only_lights_below_the_receiver() {
+    let items = items(1000);
+    let tree = LightTree::new(&items);
+    for position in [DVec3::ZERO, DVec3::new(0.5, 0.5, -2.0), DVec3::new(-2.9, 0.0, 2.5)] {
+        let at = receiver(position);
+        for (item, index) in items.iter().zip(0..) {
+            let may_shine = item.power > 0.0 && item.bounds.max.z > position.z;
+            assert!(!may_shine || tree.probability(&at, index) > 0.0, "{index} at {position}");
+        }
+    }
 }
 
 #[test]

@@ -1,9 +1,11 @@
 //! Surfaces that emit: choosing a point of one as seen from another point, and the density of that choice.
 
+use super::WEIGHED;
 use super::alias::{AliasTable, BELOW_ONE};
 use super::spherical_rectangle::{Pane, SphericalRectangle};
+use super::tree::{LightTree, TreeItem};
 use crate::geometry::{Ball, Cuboid, Geometry, MeshSpace, PrimitiveId, Rectangle, Shape, SurfacePoint};
-use crate::math::{DVec3, Frame, Rgb, luminance};
+use crate::math::{Bounds, DVec3, Frame, Rgb, luminance};
 use crate::sampling::warp::{cone_pdf, square_to_cone, square_to_triangle};
 use std::ops::Range;
 
@@ -24,6 +26,7 @@ pub(super) struct AreaLight {
     shape: LightShape,
     /// Luminance times area.
     pub(super) power: f64,
+    bounds: Bounds,
     center: DVec3,
     bounding_radius: f64,
 }
@@ -45,11 +48,19 @@ enum LightShape {
         pane: Pane,
     },
     /// Triangles of a space from `first` on, chosen by area.
-    Mesh {
+    FewTriangles {
         space: u32,
         first: u32,
         area: f64,
         table: AliasTable,
+    },
+    /// The same, chosen by the light that they may bring.
+    Triangles {
+        space: u32,
+        first: u32,
+        /// Of every triangle.
+        areas: Vec<f64>,
+        tree: LightTree,
     },
 }
 
@@ -89,6 +100,7 @@ impl AreaLight {
             radiance,
             shape,
             power: luminance(radiance) * area,
+            bounds,
             center: bounds.center(),
             bounding_radius,
         })
@@ -97,21 +109,34 @@ impl AreaLight {
     /// The light of a mesh: some triangles of the space `space`.
     pub(super) fn of_mesh(mesh: &MeshSpace, space: u32, triangles: Range<u32>, radiance: Rgb) -> AreaLight {
         let first = triangles.start;
-        let mut bounds = crate::math::Bounds::EMPTY;
-        let mut areas = Vec::with_capacity(triangles.len());
-        for index in triangles {
-            let [a, b, c] = mesh.corners(index).map(|corner| mesh.frame.to_world(corner));
-            bounds = [a, b, c].into_iter().fold(bounds, |bounds, corner| bounds.with_point(corner));
-            areas.push(0.5 * (b - a).cross(c - a).length());
-        }
+        let items: Vec<TreeItem> = triangles
+            .map(|index| {
+                let [a, b, c] = mesh.corners(index).map(|corner| mesh.frame.to_world(corner));
+                let bounds = [a, b, c].into_iter().fold(Bounds::EMPTY, Bounds::with_point);
+                TreeItem { bounds, power: 0.5 * (b - a).cross(c - a).length() }
+            })
+            .collect();
+        let bounds = items.iter().fold(Bounds::EMPTY, |bounds, item| bounds.union(item.bounds));
+        let areas: Vec<f64> = items.iter().map(|item| item.power).collect();
         let area: f64 = areas.iter().sum();
+        let shape = if items.len() <= WEIGHED {
+            LightShape::FewTriangles { space, first, area, table: AliasTable::new(&areas) }
+        } else {
+            LightShape::Triangles { space, first, areas, tree: LightTree::new(&items) }
+        };
         AreaLight {
             radiance,
-            shape: LightShape::Mesh { space, first, area, table: AliasTable::new(&areas) },
+            shape,
             power: luminance(radiance) * area,
+            bounds,
             center: bounds.center(),
             bounding_radius: ((bounds.max - bounds.min) * 0.5).length(),
         }
+    }
+
+    /// As a tree over lights sees it.
+    pub(super) fn item(&self) -> TreeItem {
+        TreeItem { bounds: self.bounds, power: self.power }
     }
 
     /// An estimate, without occlusion, of the light that reaches a receiver: power over squared distance; 0 only where
@@ -154,11 +179,16 @@ impl AreaLight {
                 let point = geometry.solid_point(*solid, cuboid.center, offset, rectangle.normal);
                 Some((point, seen.pdf(face, point.position - p)))
             }
-            LightShape::Mesh { space, first, area, table } => {
+            LightShape::FewTriangles { space, first, area, table } => {
                 let (index, _, u0) = table.sample(u[0])?;
-                let [s, t] = square_to_triangle([u0, u[1]]);
-                let point = geometry.triangle_point(PrimitiveId::triangle(*space, first + index), s, t);
-                (point.primitive != at.point.primitive).then(|| (point, mesh_pdf(*area, &point, p)))
+                let point = triangle_point(geometry, *space, first + index, [u0, u[1]]);
+                (point.primitive != at.point.primitive).then(|| (point, area_pdf(*area, &point, p)))
+            }
+            LightShape::Triangles { space, first, areas, tree } => {
+                let (index, probability, u0) = tree.sample(at, u[0])?;
+                let point = triangle_point(geometry, *space, first + index, [u0, u[1]]);
+                let pdf = area_pdf(areas[index as usize], &point, p) * probability;
+                (point.primitive != at.point.primitive).then_some((point, pdf))
             }
         }
     }
@@ -174,12 +204,22 @@ impl AreaLight {
             LightShape::Cuboid { solid, cuboid, faces } => {
                 VisibleFaces::new(*solid, cuboid, faces, at).pdf(part as usize, point.position - p)
             }
-            LightShape::Mesh { area, .. } => mesh_pdf(*area, point, p),
+            LightShape::FewTriangles { area, .. } => area_pdf(*area, point, p),
+            LightShape::Triangles { areas, tree, .. } => {
+                area_pdf(areas[part as usize], point, p) * tree.probability(at, part)
+            }
         }
     }
 }
 
-fn mesh_pdf(area: f64, point: &SurfacePoint, from: DVec3) -> f64 {
+/// A point of a triangle, uniform over its area.
+fn triangle_point(geometry: &Geometry, space: u32, triangle: u32, u: [f64; 2]) -> SurfacePoint {
+    let [s, t] = square_to_triangle(u);
+    geometry.triangle_point(PrimitiveId::triangle(space, triangle), s, t)
+}
+
+/// Density per solid angle of a point that is uniform over an area.
+fn area_pdf(area: f64, point: &SurfacePoint, from: DVec3) -> f64 {
     let to = point.position - from;
     let distance2 = to.length_squared();
     distance2 * distance2.sqrt() / (area * to.dot(point.normal).abs())

@@ -3,10 +3,12 @@
 mod alias;
 mod area;
 mod spherical_rectangle;
+mod tree;
 
 pub use alias::AliasTable;
 pub use area::Receiver;
 pub use spherical_rectangle::{Pane, SphericalRectangle};
+pub use tree::{LightTree, TreeItem};
 
 use super::sky::Sky;
 use crate::geometry::{Geometry, Hit, SurfacePoint};
@@ -41,11 +43,11 @@ pub struct Lights {
     of_object: Vec<u32>,
     /// Share of the samples that go to the sky: 0 unless it is sampled, 1 if nothing else shines.
     sky_share: f64,
-    /// Choice by power; used when there are too many lights to weigh each one at every point.
-    table: AliasTable,
+    /// Chooses when there are too many lights to weigh each one at every point.
+    tree: LightTree,
 }
 
-/// Up to this many lights are weighed at every point by their distance; beyond, power alone decides.
+/// Up to this many lights, or triangles of a light, are weighed one by one; beyond, a tree does.
 const WEIGHED: usize = 16;
 
 impl Lights {
@@ -74,13 +76,16 @@ impl Lights {
                 }
             }
         }
-        let powers: Vec<f64> = lights.iter().map(|light| light.power).collect();
+        let items: Vec<TreeItem> = match lights.len() {
+            0..=WEIGHED => Vec::new(),
+            _ => lights.iter().map(AreaLight::item).collect(),
+        };
         let sky_share = match (sky.kind().is_sampled(), lights.is_empty()) {
             (true, true) => 1.0,
             (true, false) => SKY_SHARE,
             (false, _) => 0.0,
         };
-        Lights { lights, of_object, sky_share, table: AliasTable::new(&powers) }
+        Lights { lights, of_object, sky_share, tree: LightTree::new(&items) }
     }
 
     /// Number of objects that emit.
@@ -171,7 +176,7 @@ impl Lights {
                 }
                 chosen
             }
-            _ => self.table.sample(u).map(|(light, probability, _)| (light as usize, probability)),
+            _ => self.tree.sample(at, u).map(|(light, probability, _)| (light as usize, probability)),
         }
     }
 
@@ -182,7 +187,7 @@ impl Lights {
                 let (weights, total) = self.weights(at);
                 if total > 0.0 { weights[light] / total } else { 0.0 }
             }
-            _ => self.table.probability(light as u32),
+            _ => self.tree.probability(at, light as u32),
         }
     }
 
