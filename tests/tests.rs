@@ -3,6 +3,9 @@
 /// Statistics, oracles, scenes: what the topics share.
 mod support;
 
+/// The order of the modules, and the length of files.
+mod layers;
+
 /// The committed meshes and scenes are what their generator makes.
 mod assets;
 /// The makers of the committed meshes and scenes.
