@@ -2,10 +2,12 @@
 
 mod provenance;
 mod stamp;
+mod target;
 
 pub use crate::picture::{quantize, srgb_encode};
 pub use provenance::{PREFIX, Provenance, arguments};
 pub use stamp::{date_time, stamp};
+pub use target::{Target, Wanted};
 
 use crate::error::Result;
 use crate::film::Film;
