@@ -8,7 +8,7 @@ use eframe::egui::{Context, ThemePreference, Ui, ViewportBuilder, ViewportComman
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::iterator::Signals;
 use std::env;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
@@ -59,6 +59,8 @@ struct App {
     desk: Desk,
     theme: Option<Theme>,
     title: String,
+    /// The scenes that were kept last.
+    recent: Vec<PathBuf>,
     is_signalled: Arc<AtomicBool>,
 }
 
@@ -75,7 +77,9 @@ impl App {
                 waker();
             }
         })?;
-        Ok(App { studio: Studio::new(kept, wake), desk: Desk::default(), theme: None, title: String::new(), is_signalled })
+        let recent = kept.recent.clone();
+        let studio = Studio::new(kept, wake);
+        Ok(App { studio, desk: Desk::default(), theme: None, title: String::new(), recent, is_signalled })
     }
 
     /// Follows the theme, the title and the size.
@@ -100,6 +104,10 @@ impl App {
         }
         let size = ctx.content_rect().size();
         self.studio.kept.size = [size.x, size.y];
+        if self.recent != self.studio.kept.recent {
+            self.recent = self.studio.kept.recent.clone();
+            self.studio.kept.save();
+        }
     }
 
     /// Closes, but for changes that are not saved. A signal does not ask.
@@ -116,6 +124,7 @@ impl App {
             self.desk.dialogs.is_closing = true;
         } else {
             self.studio.close();
+            self.studio.kept.save();
         }
     }
 }

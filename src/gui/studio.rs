@@ -160,7 +160,6 @@ impl Studio {
             let stem = loaded.path.file_stem().unwrap_or_default().to_string_lossy();
             self.kept.knobs.image = format!("{stem}.png");
             self.kept.remember(&loaded.path);
-            self.kept.save();
             self.selected = None;
             self.notice = None;
             self.history = History::default();
@@ -348,7 +347,6 @@ impl Studio {
         match saved {
             Ok(()) => {
                 self.kept.remember(&path);
-                self.kept.save();
                 self.say(format!("{} is saved", path.display()));
                 self.keep_picture();
             }
@@ -395,7 +393,6 @@ impl Studio {
             // What went wrong has no window left to be said in.
             let _ = saving.recv();
         }
-        self.kept.save();
     }
 
     /// Stores the picture to compare others with.

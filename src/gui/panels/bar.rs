@@ -95,33 +95,33 @@ fn view_menu(ui: &mut Ui, studio: &mut Studio, desk: &mut Desk) {
     for theme in Theme::ALL {
         if ui.radio(studio.kept.theme == theme, theme.name()).clicked() {
             studio.kept.theme = theme;
-            studio.kept.save();
         }
     }
 }
 
 fn render_buttons(ui: &mut Ui, studio: &mut Studio) {
-    let status = studio.session.status();
-    let has_scene = studio.document.loaded.is_some();
-    let is_final = studio.is_rendering_final();
-    let preview = ui.add_enabled(has_scene && !is_final, Button::new("Preview"));
-    if preview.on_hover_text("Render a preview once more (P)").clicked() {
+    let is_busy = studio.session.status().is_busy();
+    let can_start = studio.document.loaded.is_some() && !studio.is_rendering_final();
+    if button(ui, can_start, "Preview", "Render a preview once more (P)") {
         studio.preview();
     }
-    let render = ui.add_enabled(has_scene && !is_final, Button::new("Render"));
-    if render.on_hover_text("Render the picture and write it to its file (Enter)").clicked() {
+    if button(ui, can_start, "Render", "Render the picture and write it to its file (Enter)") {
         studio.render();
     }
     let is_paused = studio.session.is_paused();
     let label = if is_paused { "Go on" } else { "Pause" };
-    let pause = ui.add_enabled(status.is_busy(), Button::new(label));
-    if pause.on_hover_text("Space; the time of a time budget runs on").clicked() {
+    if button(ui, is_busy, label, "Space; the time of a time budget runs on") {
         studio.session.pause(!is_paused);
     }
-    let stop = ui.add_enabled(status.is_busy(), Button::new("Stop"));
-    if stop.on_hover_text("S; a final render writes its picture so far").clicked() {
+    if button(ui, is_busy, "Stop", "S; a final render writes its picture so far") {
         studio.session.stop();
     }
+}
+
+/// A button that looks like one, unlike those of a menu; whether it was clicked.
+fn button(ui: &mut Ui, is_enabled: bool, label: &str, help: &str) -> bool {
+    let fill = ui.visuals().widgets.inactive.bg_fill;
+    ui.add_enabled(is_enabled, Button::new(label).fill(fill)).on_hover_text(help).clicked()
 }
 
 fn tools(ui: &mut Ui, studio: &mut Studio) {

@@ -28,6 +28,8 @@ struct Layer {
 pub struct Canvas {
     /// How it is looked at.
     pub zoom: Zoom,
+    /// Where there is place for it, in points.
+    pub place: Option<Rect>,
     /// The pixel under the mouse.
     pub pixel: Option<[usize; 2]>,
     layer: Layer,
@@ -68,6 +70,7 @@ impl Canvas {
 
     pub(super) fn show(&mut self, ui: &mut Ui, studio: &mut Studio) {
         let (place, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
+        self.place = Some(place);
         let per_point = ui.ctx().pixels_per_point();
         let pixels = place.size() * per_point;
         studio.set_place([pixels.x.max(1.0) as u32, pixels.y.max(1.0) as u32]);

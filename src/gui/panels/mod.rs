@@ -35,13 +35,13 @@ impl Desk {
         commands::keys(ui, studio, self);
         Panel::top("bar").show(ui, |ui| bar::show(ui, studio, self));
         Panel::bottom("status").show(ui, |ui| status::show(ui, studio));
-        Panel::left("parameters").default_size(250.0).size_range(220.0..=420.0).show(ui, |ui| {
+        Panel::left("parameters").default_size(280.0).size_range(260.0..=420.0).show(ui, |ui| {
             ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                 parameters::show(ui, studio);
                 sky::show(ui, studio);
             });
         });
-        Panel::right("inspector").default_size(250.0).size_range(220.0..=420.0).show(ui, |ui| {
+        Panel::right("inspector").default_size(280.0).size_range(260.0..=420.0).show(ui, |ui| {
             ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                 inspector::show(ui, studio, &self.canvas);
                 objects::show(ui, studio);

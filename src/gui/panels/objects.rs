@@ -107,7 +107,7 @@ fn fields(ui: &mut Ui, surface: &mut Surface) {
             share(ui, "Specularity", &mut surface.specularity);
         }
         SurfaceKind::Refractive => {
-            ui.label("Refraction ratio");
+            ui.label("n out / n in");
             ui.add(DragValue::new(&mut surface.ratio).speed(0.005).range(0.01..=100.0).clamp_existing_to_range(false))
                 .on_hover_text("n outside / n inside: about 0.67 for glass, 0.42 for diamond");
             ui.end_row();

@@ -36,6 +36,8 @@ pub(super) fn show(ui: &mut Ui, studio: &mut Studio) {
 /// A colour whose components may exceed 1: numbers, and a picker for what a screen can show.
 pub(super) fn radiance(ui: &mut Ui, color: &mut Rgb) {
     ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 2.0;
+        ui.spacing_mut().interact_size.x = 34.0;
         if color.max_element() <= 1.0 {
             picker(ui, color);
         }
@@ -46,6 +48,8 @@ pub(super) fn radiance(ui: &mut Ui, color: &mut Rgb) {
 /// A colour whose components are at most 1.
 pub(super) fn reflectance(ui: &mut Ui, color: &mut Rgb) {
     ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 2.0;
+        ui.spacing_mut().interact_size.x = 34.0;
         picker(ui, color);
         components(ui, color, 1.0);
     });
@@ -61,8 +65,6 @@ fn picker(ui: &mut Ui, color: &mut Rgb) {
 }
 
 fn components(ui: &mut Ui, color: &mut Rgb, most: f64) {
-    ui.spacing_mut().item_spacing.x = 2.0;
-    ui.spacing_mut().interact_size.x = 34.0;
     let mut values = color.to_array();
     for value in &mut values {
         ui.add(DragValue::new(value).speed(0.005).range(0.0..=most).clamp_existing_to_range(false).max_decimals(3));

@@ -137,6 +137,7 @@ impl Shared {
         if state.status.job == job {
             change(&mut state.status);
             drop(state);
+            self.wake.notify_all();
             (self.notify)();
         }
     }
@@ -147,6 +148,7 @@ impl Shared {
         if state.status.job == frame.job {
             state.frame = Some(Arc::new(frame));
             drop(state);
+            self.wake.notify_all();
             (self.notify)();
         }
     }
@@ -246,14 +248,24 @@ impl Session {
         self.shared.lock().frame.clone()
     }
 
-    /// Waits until the newest order has ended. For tests, and before the program ends.
+    /// Waits until the newest order has ended.
     pub fn wait(&self) -> Status {
+        self.wait_for(u64::MAX)
+    }
+
+    /// Waits until the newest order has a frame of its full size with so many samples, or has ended.
+    pub fn wait_for(&self, samples: u64) -> Status {
+        let mut state = self.shared.lock();
         loop {
-            let status = self.status();
-            if !status.is_busy() {
-                return status;
+            let job = state.status.job;
+            let has_frame = state
+                .frame
+                .as_ref()
+                .is_some_and(|frame| frame.job == job && !frame.is_coarse && frame.samples >= samples);
+            if has_frame || !state.status.is_busy() {
+                return state.status.clone();
             }
-            thread::sleep(Duration::from_millis(1));
+            state = self.shared.wake.wait(state).unwrap_or_else(PoisonError::into_inner);
         }
     }
 }
