@@ -4,7 +4,7 @@
 //! YAML -> scene::SceneDesc -> world::World -> accel::Accelerator -> integrator -> film::Film -> picture
 //! ```
 //!
-//! A module uses only modules above it in this list; `render`, `study` and `cli` see everything.
+//! A module uses only modules above it in this list; `render`, `study`, `cli` and `gui` see everything.
 #![deny(unsafe_code)]
 
 pub mod error;
@@ -37,3 +37,6 @@ pub mod output;
 pub mod study;
 
 pub mod cli;
+
+#[cfg_attr(not(feature = "gui"), path = "gui_missing.rs")]
+pub mod gui;

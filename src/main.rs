@@ -4,10 +4,10 @@ use std::env;
 use std::ffi::OsString;
 use std::process::ExitCode;
 
-use pathtracer::cli;
+use pathtracer::{cli, gui};
 
 fn main() -> ExitCode {
     let arguments: Vec<OsString> = env::args_os().collect();
-    let code = cli::run(&arguments).unwrap_or_else(|error| cli::report(&error, &arguments));
+    let code = cli::run(&arguments, &gui::open).unwrap_or_else(|error| cli::report(&error, &arguments));
     ExitCode::from(code)
 }

@@ -3,11 +3,13 @@
 mod aov;
 mod provenance;
 mod stamp;
+mod target;
 
 pub use crate::picture::{quantize, srgb_encode};
 pub use aov::Aov;
 pub use provenance::{PREFIX, Provenance, arguments};
 pub use stamp::{date_time, stamp};
+pub use target::{Target, Wanted};
 
 use crate::error::Result;
 use crate::film::Film;

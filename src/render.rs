@@ -13,6 +13,7 @@ mod memory;
 mod meter;
 mod outlook;
 mod pace;
+mod prepared;
 mod report;
 mod so_far;
 mod tile;
@@ -22,23 +23,21 @@ pub use features::{FAR, FeatureKind, FeaturePlanes};
 pub(crate) use memory::available_bytes;
 pub use memory::film_bytes;
 pub use outlook::Outlook;
+pub use prepared::Prepared;
 pub use so_far::SoFar;
 
-use crate::accel::bvh::Bvh;
-#[cfg(feature = "embree")]
-use crate::accel::embree::Embree;
-use crate::accel::{Accelerator, BuildOptions, BvhQuality, Isa, Precision, check_isa};
+use crate::accel::{BvhQuality, Isa, Precision, check_isa};
 use crate::error::{Error, Result};
 use crate::film::{Film, PictureError};
-use crate::integrator::{Counters, FeatureTracer, PathTracer};
+use crate::integrator::Counters;
 use crate::math::Rgb;
-use crate::sampling::{Independent, Sampler, SamplerKind, Scrambles, Sobol};
+use crate::sampling::{SamplerKind, Scrambles};
 use crate::scene::desc::CameraDesc;
 use crate::world::World;
 use chunks::take_samples;
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// The widest and highest picture, in pixels.
 pub const MAX_SIDE: u32 = 65_536;
@@ -337,13 +336,9 @@ pub fn render(
     watch: &dyn Watch,
 ) -> Result<Rendered> {
     settings.check()?;
-    let run = Run { world, camera, settings, watch };
-    in_pool(settings, || match settings.accel {
-        #[cfg(feature = "embree")]
-        AccelKind::Embree => run.with_accel(|options| Embree::build(&world.geometry, options)),
-        #[cfg(not(feature = "embree"))]
-        AccelKind::Embree => Err(no_embree()),
-        AccelKind::Native => run.with_accel(|options| Bvh::build(&world.geometry, options)),
+    in_pool(settings, || {
+        let prepared = Prepared::build_here(&world.geometry, settings)?;
+        prepared.render_here(world, camera, settings, watch)
     })
 }
 
@@ -354,50 +349,6 @@ where
 {
     settings.check()?;
     in_pool(settings, || take_samples(settings, watch, &sample))
-}
-
-/// A render on its way to its types.
-struct Run<'r> {
-    world: &'r World,
-    camera: &'r CameraDesc,
-    settings: &'r Settings,
-    watch: &'r dyn Watch,
-}
-
-impl Run<'_> {
-    fn with_accel<A: Accelerator>(&self, build: impl Fn(&BuildOptions) -> Result<A>) -> Result<Rendered> {
-        let start = Instant::now();
-        let Settings { precision, isa, bvh: quality, .. } = *self.settings;
-        let accel = build(&BuildOptions { precision, isa, quality, ..BuildOptions::default() })?;
-        let build_seconds = start.elapsed().as_secs_f64();
-        let rendered = match self.settings.sampler {
-            SamplerKind::Sobol => self.with_sampler(&accel, Sobol::new(self.settings.seed)),
-            SamplerKind::Independent => self.with_sampler(&accel, Independent::new(self.settings.seed)),
-        }?;
-        Ok(Rendered { build_seconds, ..rendered })
-    }
-
-    fn with_sampler<A: Accelerator, S: Sampler>(&self, accel: &A, sampler: S) -> Result<Rendered> {
-        let Settings { width, height, bounces, light_sampling, .. } = *self.settings;
-        let camera = self.world.camera(self.camera, width, height);
-        let tracer = PathTracer::new(self.world, &camera, accel, bounces, light_sampling);
-        let rendered = take_samples(self.settings, self.watch, |x, y, index, counters| {
-            tracer.sample(&sampler, x, y, index, counters)
-        })?;
-        let rendered = Rendered { brightest: self.world.brightest(), ..rendered };
-        if !self.settings.features {
-            return Ok(rendered);
-        }
-        let tracer = FeatureTracer { world: self.world, camera: &camera, accelerator: accel };
-        let start = Instant::now();
-        let features =
-            features::collect(self.settings, self.watch, rendered.film.samples(), |x, y, index| {
-                tracer.sample(&sampler, x, y, index)
-            })?;
-        let ended = if self.watch.cancelled() { Ended::Cancelled } else { rendered.ended };
-        let render_seconds = rendered.render_seconds + start.elapsed().as_secs_f64();
-        Ok(Rendered { features: Some(features), ended, render_seconds, ..rendered })
-    }
 }
 
 /// Runs `work` in a pool of its own, of as many threads as `settings` say. A panic in any of them becomes an error.

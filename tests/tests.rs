@@ -80,5 +80,9 @@ mod study;
 /// The program from outside.
 mod cli;
 
+/// The window: scenes that are edited and saved, previews, panels, the real window.
+#[cfg(feature = "gui")]
+mod gui;
+
 /// Measurements, which assert nothing.
 mod speed;

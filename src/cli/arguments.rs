@@ -14,7 +14,7 @@ pub(super) use values::{ACCELS, BVHS, ISAS, PRECISIONS, name_of};
 
 use crate::accel::{BvhQuality, Isa, Precision};
 use crate::error::Error;
-use crate::output::Aov;
+use crate::output::{Aov, Wanted};
 use crate::picture::Depth;
 use crate::render::{
     AccelKind, MAX_BOUNCES, MAX_SAMPLES, MAX_SIDE, MAX_THREADS, SHORT_SCRAMBLE_LENGTH, Settings,
@@ -43,6 +43,7 @@ static VERSION: LazyLock<String> = LazyLock::new(|| {
     about = "Renders a scene by path tracing",
     after_help = EXIT_CODES,
     override_usage = "pathtracer [OPTIONS] SCENE WIDTH HEIGHT SAMPLES BOUNCES IMAGE\n       \
+                      pathtracer [gui] [SCENE]\n       \
                       pathtracer check SCENE...\n       \
                       pathtracer compare [OPTIONS] SCENE\n       \
                       pathtracer bench [OPTIONS] [SCENE | OBJ]\n       \
@@ -65,6 +66,13 @@ const EXIT_CODES: &str = "A scene that is named like a command is reached by ./N
 
 #[derive(Debug, clap::Subcommand)]
 pub(super) enum Command {
+    /// Open the window, which renders while the scene is changed; so does no command at all
+    #[command(override_usage = "pathtracer gui [SCENE]")]
+    Gui {
+        /// A scene file
+        #[arg(value_name = "SCENE")]
+        scene: Option<PathBuf>,
+    },
     /// Say everything that is wrong with scenes, what they contain and what they need
     #[command(override_usage = "pathtracer check SCENE...")]
     Check {
@@ -207,6 +215,20 @@ pub(super) struct Job {
     pub(super) json: bool,
 }
 
+impl Job {
+    /// The picture.
+    pub(super) fn wanted(&self) -> Wanted {
+        Wanted {
+            image: self.image.clone(),
+            depth: self.depth,
+            exposure: self.exposure,
+            aov: self.aov.clone(),
+            denoise: self.denoise,
+            stamp: self.stamp,
+        }
+    }
+}
+
 impl Arguments {
     /// Parses a command line, the program's name first.
     pub(super) fn parse(arguments: &[OsString]) -> anyhow::Result<Arguments> {
@@ -270,6 +292,11 @@ impl RenderArguments {
         Ok(Job { scene, image, error_bars, settings, exposure, depth, aov, denoise, stamp, quiet, json })
     }
 
+    /// The scene, if it is the only positional argument.
+    pub(super) fn only_scene(&self) -> Option<&Path> {
+        self.scene.as_deref().filter(|_| self.given() == 1)
+    }
+
     /// How many positional arguments there are.
     fn given(&self) -> usize {
         let numbers = [self.width, self.height, self.samples, self.bounces];
@@ -279,9 +306,10 @@ impl RenderArguments {
     }
 }
 
-fn usage(message: &str) -> Error {
+/// A message with the usage.
+pub(super) fn usage(message: &str) -> Error {
     Error::Usage(format!(
-        "{message}\n\nUsage: pathtracer [OPTIONS] {}\n       pathtracer check SCENE...\n       \
+        "{message}\n\nUsage: pathtracer [OPTIONS] {}\n       pathtracer [gui] [SCENE]\n       pathtracer check SCENE...\n       \
          pathtracer compare [OPTIONS] SCENE\n       pathtracer bench [OPTIONS] [SCENE | OBJ]\n       \
          pathtracer tradeoff [OPTIONS] SCENE\n       pathtracer diff [OPTIONS] PICTURE REFERENCE\n       pathtracer info PICTURE\n\nFor more information, try '--help'.",
         POSITIONALS.join(" ")

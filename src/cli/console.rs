@@ -10,19 +10,19 @@ pub(super) fn say(line: impl Display) {
 }
 
 /// A number as `%g` prints it: 6 significant digits, no zeros at the end.
-pub(super) fn number(x: f64) -> String {
+pub(crate) fn number(x: f64) -> String {
     digits(x, 6)
 }
 
 /// A number with so many significant digits, at least 1, and no zeros at the end.
-pub(super) fn digits(x: f64, count: usize) -> String {
+pub(crate) fn digits(x: f64, count: usize) -> String {
     let rounded: f64 = format!("{x:.*e}", count - 1).parse().unwrap_or(x);
     let is_plain = rounded == 0.0 || (1e-5..1e15).contains(&rounded.abs());
     if is_plain { format!("{rounded}") } else { format!("{rounded:e}") }
 }
 
 /// A rate or count with three digits and a prefix: `1.23 M`.
-pub(super) fn with_prefix(x: f64) -> String {
+pub(crate) fn with_prefix(x: f64) -> String {
     let (scaled, prefix) = match x {
         1e9.. => (x / 1e9, " G"),
         1e6.. => (x / 1e6, " M"),
@@ -40,7 +40,7 @@ pub(super) fn with_prefix(x: f64) -> String {
 }
 
 /// A duration in its two largest units.
-pub(super) fn duration(time: Duration) -> String {
+pub(crate) fn duration(time: Duration) -> String {
     match time.as_secs() {
         0..10 => format!("{:.2} s", time.as_secs_f64()),
         seconds @ 10..60 => format!("{seconds} s"),
@@ -50,6 +50,6 @@ pub(super) fn duration(time: Duration) -> String {
 }
 
 /// Text of a file without what a terminal would obey.
-pub(super) fn printable(text: &str) -> String {
+pub(crate) fn printable(text: &str) -> String {
     text.chars().map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }).collect()
 }

@@ -7,7 +7,7 @@ mod arguments;
 mod bench;
 mod check;
 mod compare;
-mod console;
+pub(crate) mod console;
 mod describe;
 mod diff;
 mod event;
@@ -19,25 +19,41 @@ mod plot_file;
 mod progress;
 mod render;
 mod scaling;
-mod target;
 mod tradeoff;
 
-use crate::error::Error;
+use crate::error::{Error, Result};
 use arguments::{Arguments, Command};
 use event::Event;
 use std::ffi::OsString;
+use std::path::Path;
+
+/// Opens the window, maybe with a scene, and comes back when it is closed. [`Error::Unavailable`] says why it can't be opened.
+pub type Window = dyn Fn(Option<&Path>) -> Result<()>;
 
 /// Runs the command that the arguments ask for, the program's name first, and returns the exit code.
-pub fn run(arguments: &[OsString]) -> anyhow::Result<u8> {
+pub fn run(arguments: &[OsString], window: &Window) -> anyhow::Result<u8> {
     let Arguments { command, render } = Arguments::parse(arguments)?;
     match command {
+        Some(Command::Gui { scene }) => open(window, scene.as_deref()),
         Some(Command::Check { scenes }) => Ok(check::run(&scenes)),
         Some(Command::Compare(arguments)) => compare::run(&arguments.resolve()?),
         Some(Command::Bench(arguments)) => bench::run(&arguments.resolve()?),
         Some(Command::Tradeoff(arguments)) => tradeoff::run(&arguments.resolve()?),
         Some(Command::Diff(arguments)) => diff::run(&arguments),
         Some(Command::Info { picture }) => info::run(&picture),
-        None => render::run(&render.resolve()?),
+        None if arguments.len() == 1 => open(window, None),
+        None => match (arguments, render.only_scene()) {
+            ([_, _], Some(scene)) => open(window, Some(scene)),
+            _ => render::run(&render.resolve()?),
+        },
+    }
+}
+
+fn open(window: &Window, scene: Option<&Path>) -> anyhow::Result<u8> {
+    match window(scene) {
+        Ok(()) => Ok(0),
+        Err(Error::Unavailable(why)) => Err(arguments::usage(&why).into()),
+        Err(error) => Err(error.into()),
     }
 }
 

@@ -4,11 +4,10 @@ use super::arguments::Job;
 use super::console::{digits, duration, say, with_prefix};
 use super::event::{self, Event, JobRecord, Seconds, Summary, per_second};
 use super::progress::Reporter;
-use super::target::Target;
 use super::{describe, findings, interrupt};
 use crate::error::{Error, Result};
 use crate::film::PictureError;
-use crate::output::{self, Aov, Provenance};
+use crate::output::{self, Aov, Provenance, Target};
 use crate::picture::{Destination, Format};
 use crate::render::{Ended, Rendered, in_pool, render};
 use crate::scene;
@@ -23,8 +22,8 @@ const NOISE_MISSED: u8 = 5;
 pub(super) fn run(job: &Job) -> anyhow::Result<u8> {
     // Whatever can be known to fail fails before the work.
     job.settings.check()?;
-    let target = Target::new(job)?;
-    let destination = &target.picture;
+    let target = Target::new(job.wanted())?;
+    let destination = target.picture();
     let error_bars = job.error_bars.as_deref().map(error_bars).transpose()?;
     if let Some(bars) = &error_bars
         && target.holds(bars)
@@ -69,7 +68,7 @@ pub(super) fn run(job: &Job) -> anyhow::Result<u8> {
         is_clamped: rendered.counters.clamped > 0,
         exposure: job.exposure,
     };
-    let (written, write) = timed(|| target.write(job, &provenance, &rendered));
+    let (written, write) = timed(|| target.write(&provenance, &rendered));
     written?;
     if let Some(error_bars) = error_bars
         && !output::write_error_bars(&rendered.film, &error_bars)?

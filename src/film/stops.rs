@@ -48,6 +48,11 @@ impl Film {
         self.stops = Some(stops);
     }
 
+    /// Samples of a pixel, counted row by row from the top left.
+    pub fn samples_of(&self, pixel: usize) -> u64 {
+        self.stopped_counts(pixel).map_or(self.samples(), |counts| counts.iter().sum())
+    }
+
     /// Samples of each scramble in a pixel of a film with blocks.
     pub(super) fn stopped_counts(&self, pixel: usize) -> Option<[u64; SCRAMBLES]> {
         self.stops.as_ref().map(|stops| stops.counts(pixel, self.width as usize))

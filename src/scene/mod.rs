@@ -5,6 +5,7 @@
 //! what the scene names, `diagnostic` collects what is wrong and `source` knows the lines.
 
 pub mod desc;
+pub mod edit;
 
 mod diagnostic;
 mod digest;

@@ -39,7 +39,7 @@ impl World {
             return Err(Error::Scene(problems));
         }
         let Parts { solids, meshes, shared, normals, varied } = parts;
-        let geometry = Geometry::with_instances(solids, meshes, shared.spaces);
+        let geometry = Arc::new(Geometry::with_instances(solids, meshes, shared.spaces));
         let emission: Vec<Rgb> =
             desc.objects.iter().map(|object| emission_of(&object.material.kind)).collect();
         let sky = Sky::new(&desc.environment, desc.environment_map.as_ref());

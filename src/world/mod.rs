@@ -30,13 +30,14 @@ use crate::math::{DVec3, Rgb};
 use crate::scene::desc::CameraDesc;
 use light::{Lights, Receiver};
 use shading::ShadingNormals;
+use std::sync::Arc;
 use varied::Varied;
 
 /// A scene, ready to be rendered.
 #[derive(Clone, Debug)]
 pub struct World {
-    /// All primitives.
-    pub geometry: Geometry,
+    /// All primitives; worlds that differ in their materials only may share them, and so an accelerator.
+    pub geometry: Arc<Geometry>,
     /// The sky.
     pub sky: Sky,
     /// All that shines.

@@ -1,14 +1,24 @@
-use super::Folder;
+use super::{Ended, Folder};
 
 #[test]
-fn nothing_to_do_is_answered_by_the_usage() {
-    Folder::new().run("").fails(2, "Usage: pathtracer");
+fn a_window_without_a_display_is_answered_by_the_usage() {
+    let folder = Folder::new();
+    for arguments in ["", "gui", "gui ball.yaml", "ball.yaml"] {
+        let mut command = folder.command(arguments);
+        ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"].iter().for_each(|name| {
+            command.env_remove(name);
+        });
+        let ended = Ended::from(command.output().expect("the program starts"));
+        let why = if cfg!(feature = "gui") { "there is no display" } else { "build with `--features gui`" };
+        ended.fails(2, why);
+        ended.fails(2, "Usage: pathtracer");
+    }
 }
 
 #[test]
-fn one_to_five_positional_arguments_are_too_few() {
+fn two_to_five_positional_arguments_are_too_few() {
     let folder = Folder::new();
-    folder.run("ball.yaml").fails(2, "missing WIDTH HEIGHT SAMPLES BOUNCES IMAGE");
+    folder.run("ball.yaml --quiet").fails(2, "missing WIDTH HEIGHT SAMPLES BOUNCES IMAGE");
     folder.run("ball.yaml 8").fails(2, "missing HEIGHT SAMPLES BOUNCES IMAGE");
     folder.run("ball.yaml 8 6 --json").fails(2, "missing SAMPLES BOUNCES IMAGE");
     folder.run("ball.yaml 8 6 1").fails(2, "missing BOUNCES IMAGE");

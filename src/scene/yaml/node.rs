@@ -69,6 +69,28 @@ impl<'t> Node<'t> {
         }
     }
 
+    /// The value of a key, if this is a mapping that has it.
+    pub(crate) fn entry(&self, key: &str) -> Option<&Node<'t>> {
+        self.at(self.position(key)?)
+    }
+
+    /// Which entry of this mapping has the key.
+    pub(crate) fn position(&self, key: &str) -> Option<usize> {
+        match &self.kind {
+            Kind::Map(entries) => entries.iter().position(|(name, _)| name.text() == Some(key)),
+            _ => None,
+        }
+    }
+
+    /// The value of an entry of this mapping, or an item of this list.
+    pub(crate) fn at(&self, index: usize) -> Option<&Node<'t>> {
+        match &self.kind {
+            Kind::Map(entries) => entries.get(index).map(|(_, value)| value),
+            Kind::List(items) => items.get(index),
+            _ => None,
+        }
+    }
+
     /// Whether the value is neither a list nor a mapping.
     pub(crate) fn is_scalar(&self) -> bool {
         matches!(self.kind, Kind::Null | Kind::Bool(_) | Kind::Number(_) | Kind::Text(_))

@@ -1,0 +1,246 @@
+//! The scene file: read beside the window's thread, watched, and kept with its text.
+
+use crate::error::{Diagnostic, Error, Severity};
+use crate::scene::desc::{MaterialDesc, ShapeDesc};
+use crate::scene::edit::Editable;
+use crate::scene::{self, Scene};
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::thread;
+use std::time::{Duration, Instant, SystemTime};
+
+/// How often the files are looked at.
+const WATCH_EVERY: Duration = Duration::from_millis(300);
+
+/// A scene that was read without an error.
+#[derive(Debug)]
+pub struct Loaded {
+    /// The file, as it was named.
+    pub path: PathBuf,
+    /// Its text, without a byte-order mark.
+    pub text: String,
+    /// What it says.
+    pub scene: Scene,
+    /// What can be edited of it.
+    pub editable: Editable,
+}
+
+/// Reads a scene from text.
+///
+/// # Errors
+/// As [`scene::parse`].
+pub fn read_text(text: String, path: &Path) -> Result<Loaded, Error> {
+    let scene = scene::parse(&text, path)?;
+    let editable = Editable::read(&text, &scene.desc);
+    Ok(Loaded { path: path.to_path_buf(), text, scene, editable })
+}
+
+/// Reads a scene file.
+///
+/// # Errors
+/// As [`scene::load`].
+pub fn read(path: &Path) -> Result<Loaded, Error> {
+    // What is no text, or too large for one, gets the message that `load` has for it.
+    match fs::read_to_string(path) {
+        Ok(text) => read_text(text.strip_prefix(MARK).unwrap_or(&text).to_owned(), path),
+        Err(_) => {
+            let scene = scene::load(path)?;
+            let text = String::new();
+            let editable = Editable::read(&text, &scene.desc);
+            Ok(Loaded { path: path.to_path_buf(), text, scene, editable })
+        }
+    }
+}
+
+/// The byte-order mark that a file may begin with.
+const MARK: &str = "\u{feff}";
+
+/// Writes a scene's text: whole or not at all, and with the byte-order mark that the file had.
+///
+/// # Errors
+/// [`Error::Io`].
+pub fn write(path: &Path, text: &str) -> Result<(), Error> {
+    let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
+    let had_mark = fs::read(&target).is_ok_and(|bytes| bytes.starts_with(MARK.as_bytes()));
+    let mark = if had_mark { MARK } else { "" };
+    let name = target.file_name().unwrap_or_default().to_string_lossy();
+    let partial = target.with_file_name(format!(".{name}-{}.part", std::process::id()));
+    let written = fs::write(&partial, format!("{mark}{text}")).and_then(|()| fs::rename(&partial, &target));
+    written.map_err(|source| {
+        // It may not even be there.
+        let _ = fs::remove_file(&partial);
+        Error::Io { action: "save the scene".into(), path: path.into(), source }
+    })
+}
+
+/// When a file was changed, and its size; `None` if it is not there.
+type Stamp = Option<(SystemTime, u64)>;
+
+fn stamp(path: &Path) -> Stamp {
+    let found = fs::metadata(path).ok()?;
+    Some((found.modified().ok()?, found.len()))
+}
+
+/// What a scene is read from.
+#[derive(Debug, Default)]
+struct Files(Vec<(PathBuf, Stamp)>);
+
+impl Files {
+    /// The scene file alone.
+    fn of(path: &Path) -> Files {
+        Files(vec![(path.to_path_buf(), stamp(path))])
+    }
+
+    /// The scene file with all that it names. The scene file's stamp is from before it was read.
+    fn with_named(mut self, scene: &Scene) -> Files {
+        let named: BTreeSet<PathBuf> = named(scene);
+        self.0.extend(named.into_iter().map(|path| {
+            let stamp = stamp(&path);
+            (path, stamp)
+        }));
+        self
+    }
+
+    fn have_changed(&self) -> bool {
+        self.0.iter().any(|(path, before)| stamp(path) != *before)
+    }
+}
+
+/// The files that a scene names.
+fn named(scene: &Scene) -> BTreeSet<PathBuf> {
+    let desc = &scene.desc;
+    let mut files = BTreeSet::new();
+    let of_material = |material: &MaterialDesc, files: &mut BTreeSet<PathBuf>| {
+        let textures = [&material.textures.color, &material.textures.coat_color];
+        files.extend(textures.into_iter().flatten().map(|picture| picture.file.clone()));
+    };
+    for object in &desc.objects {
+        of_material(&object.material, &mut files);
+        object.faces.iter().for_each(|(_, material)| of_material(material, &mut files));
+        if let ShapeDesc::TriangleMesh { file, .. } = &object.shape {
+            files.insert(file.clone());
+        }
+    }
+    files.extend(desc.environment_map.iter().map(|map| map.picture.file.clone()));
+    files
+}
+
+/// What a read ended with.
+pub type Outcome = Result<Arc<Loaded>, Error>;
+
+/// The scene file of the window.
+#[derive(Default)]
+pub struct Document {
+    /// The file that is open, or that could not be opened.
+    pub path: Option<PathBuf>,
+    /// The newest scene without an error.
+    pub loaded: Option<Arc<Loaded>>,
+    /// What is wrong with the newest file, or what its user should know.
+    pub diagnostics: Vec<Diagnostic>,
+    reading: Option<Receiver<(Files, Outcome)>>,
+    files: Files,
+    looked: Option<Instant>,
+}
+
+/// What happened to the document.
+#[derive(Debug, PartialEq, Eq)]
+pub enum Event {
+    /// There is another scene.
+    Loaded,
+    /// The newest file has errors.
+    Failed,
+}
+
+impl Document {
+    /// Begins to read a file; `wake` is called when it is done.
+    pub fn open(&mut self, path: &Path, wake: impl FnOnce() + Send + 'static) {
+        self.path = Some(path.to_path_buf());
+        self.files = Files::of(path);
+        let (sender, receiver) = channel();
+        let path = path.to_path_buf();
+        self.reading = Some(receiver);
+        thread::spawn(move || {
+            let files = Files::of(&path);
+            let outcome = read(&path).map(Arc::new);
+            let files = match &outcome {
+                Ok(loaded) => files.with_named(&loaded.scene),
+                Err(_) => files,
+            };
+            // Nobody waits for a file that was left for another one.
+            let _ = sender.send((files, outcome));
+            wake();
+        });
+    }
+
+    /// Whether a file is being read.
+    pub fn is_reading(&self) -> bool {
+        self.reading.is_some()
+    }
+
+    /// Looks whether a read has ended.
+    pub fn poll(&mut self) -> Option<Event> {
+        let received = self.reading.as_ref()?.try_recv();
+        match received {
+            Err(TryRecvError::Empty) => None,
+            Err(TryRecvError::Disconnected) => {
+                self.reading = None;
+                self.diagnostics = vec![plain("the scene could not be read".into())];
+                Some(Event::Failed)
+            }
+            Ok((files, outcome)) => {
+                self.reading = None;
+                self.files = files;
+                Some(self.take(outcome))
+            }
+        }
+    }
+
+    /// Takes what a read ended with.
+    pub fn take(&mut self, outcome: Outcome) -> Event {
+        match outcome {
+            Ok(loaded) => {
+                self.diagnostics = loaded.scene.warnings.clone();
+                self.path = Some(loaded.path.clone());
+                self.loaded = Some(loaded);
+                Event::Loaded
+            }
+            Err(Error::Scene(diagnostics)) => {
+                self.diagnostics = diagnostics;
+                Event::Failed
+            }
+            Err(other) => {
+                self.diagnostics = vec![plain(other.to_string())];
+                Event::Failed
+            }
+        }
+    }
+
+    /// Writes an edited text to a file and goes on with that: it is read already, so its changed date means nothing.
+    ///
+    /// # Errors
+    /// As [`write`] and [`scene::parse`].
+    pub fn save(&mut self, text: String, path: &Path) -> Result<(), Error> {
+        let loaded = read_text(text, path)?;
+        write(path, &loaded.text)?;
+        self.files = Files::of(path).with_named(&loaded.scene);
+        self.take(Ok(Arc::new(loaded)));
+        Ok(())
+    }
+
+    /// Whether a file has changed since it was read. Looks only now and then.
+    pub fn has_changed(&mut self) -> bool {
+        let is_due = self.looked.is_none_or(|looked| looked.elapsed() >= WATCH_EVERY);
+        if self.path.is_none() || self.reading.is_some() || !is_due {
+            return false;
+        }
+        self.looked = Some(Instant::now());
+        self.files.have_changed()
+    }
+}
+
+fn plain(message: String) -> Diagnostic {
+    Diagnostic { severity: Severity::Error, message, location: None, source_line: None, help: None }
+}

@@ -1,0 +1,147 @@
+//! The menus and buttons at the top.
+
+use super::Desk;
+use crate::gui::display::View;
+use crate::gui::examples;
+use crate::gui::pick::Tool;
+use crate::gui::settings::Theme;
+use crate::gui::studio::Studio;
+use eframe::egui::{Button, ComboBox, MenuBar, Ui, ViewportCommand};
+use std::path::PathBuf;
+
+pub(super) fn show(ui: &mut Ui, studio: &mut Studio, desk: &mut Desk) {
+    MenuBar::new().ui(ui, |ui| {
+        ui.menu_button("File", |ui| file_menu(ui, studio, desk));
+        ui.menu_button("Edit", |ui| edit_menu(ui, studio));
+        ui.menu_button("View", |ui| view_menu(ui, studio, desk));
+        if ui.button("Help").clicked() {
+            desk.dialogs.is_help_open ^= true;
+        }
+        ui.separator();
+        render_buttons(ui, studio);
+        ui.separator();
+        tools(ui, studio);
+        ui.separator();
+        views(ui, studio);
+    });
+}
+
+fn file_menu(ui: &mut Ui, studio: &mut Studio, desk: &mut Desk) {
+    if ui.button("Open…   Ctrl+O").clicked() {
+        desk.dialogs.open_scene(studio);
+    }
+    let recent = studio.kept.recent.clone();
+    list(ui, "Recent files", recent, studio);
+    ui.menu_button("Examples", |ui| entries(ui, examples::find(), studio));
+    ui.separator();
+    let has_scene = studio.document.loaded.is_some();
+    if ui.add_enabled(has_scene, Button::new("Save scene   Ctrl+S")).clicked() {
+        studio.save_scene(None);
+    }
+    if ui.add_enabled(has_scene, Button::new("Save scene as…")).clicked() {
+        desk.dialogs.save_scene(studio);
+    }
+    if ui.add_enabled(has_scene, Button::new("Save picture…   Ctrl+E")).clicked() {
+        desk.dialogs.save_picture(studio);
+    }
+    let copy = ui.add_enabled(has_scene, Button::new("Copy as command line"));
+    if copy.clicked()
+        && let Some(loaded) = &studio.document.loaded
+    {
+        ui.ctx().copy_text(studio.kept.knobs.command(&loaded.path));
+    }
+    ui.separator();
+    if ui.button("Close   Ctrl+Q").clicked() {
+        ui.ctx().send_viewport_cmd(ViewportCommand::Close);
+    }
+}
+
+fn list(ui: &mut Ui, title: &str, paths: Vec<PathBuf>, studio: &mut Studio) {
+    ui.menu_button(title, |ui| entries(ui, paths, studio));
+}
+
+fn entries(ui: &mut Ui, paths: Vec<PathBuf>, studio: &mut Studio) {
+    if paths.is_empty() {
+        ui.weak("none");
+    }
+    for path in paths {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        if ui.button(name).on_hover_text(path.display().to_string()).clicked() {
+            studio.open(&path);
+        }
+    }
+}
+
+fn edit_menu(ui: &mut Ui, studio: &mut Studio) {
+    if ui.button("Undo   Ctrl+Z").clicked() {
+        studio.undo(true);
+    }
+    if ui.button("Redo   Ctrl+Y").clicked() {
+        studio.undo(false);
+    }
+    if ui.button("Reset camera   R").clicked() {
+        studio.reset_camera();
+    }
+}
+
+fn view_menu(ui: &mut Ui, studio: &mut Studio, desk: &mut Desk) {
+    if ui.button("Whole picture   0").clicked() {
+        desk.canvas.zoom.fit();
+    }
+    if ui.button("Store as A   A").clicked() {
+        studio.store();
+    }
+    ui.separator();
+    for theme in Theme::ALL {
+        if ui.radio(studio.kept.theme == theme, theme.name()).clicked() {
+            studio.kept.theme = theme;
+        }
+    }
+}
+
+fn render_buttons(ui: &mut Ui, studio: &mut Studio) {
+    let is_busy = studio.session.status().is_busy();
+    let can_start = studio.document.loaded.is_some() && !studio.is_rendering_final();
+    if button(ui, can_start, "Preview", "Render a preview once more (P)") {
+        studio.preview();
+    }
+    if button(ui, can_start, "Render", "Render the picture and write it to its file (Enter)") {
+        studio.render();
+    }
+    let is_paused = studio.session.is_paused();
+    let label = if is_paused { "Go on" } else { "Pause" };
+    if button(ui, is_busy, label, "Space; the time of a time budget runs on") {
+        studio.session.pause(!is_paused);
+    }
+    if button(ui, is_busy, "Stop", "S; a final render writes its picture so far") {
+        studio.session.stop();
+    }
+}
+
+/// A button that looks like one, unlike those of a menu; whether it was clicked.
+fn button(ui: &mut Ui, is_enabled: bool, label: &str, help: &str) -> bool {
+    let fill = ui.visuals().widgets.inactive.bg_fill;
+    ui.add_enabled(is_enabled, Button::new(label).fill(fill)).on_hover_text(help).clicked()
+}
+
+fn tools(ui: &mut Ui, studio: &mut Studio) {
+    for (tool, key) in [(Tool::Select, "Esc"), (Tool::Focus, "F"), (Tool::LookAt, "T")] {
+        let help = match tool {
+            Tool::Select => "A click selects an object",
+            Tool::Focus => "A click makes that point sharp",
+            Tool::LookAt => "A click looks at that point",
+        };
+        let label = ui.selectable_label(studio.tool == tool, tool.name());
+        if label.on_hover_text(format!("{help} ({key})")).clicked() {
+            studio.tool = tool;
+        }
+    }
+}
+
+fn views(ui: &mut Ui, studio: &mut Studio) {
+    ComboBox::from_id_salt("view").selected_text(studio.view.name()).width(100.0).show_ui(ui, |ui| {
+        for view in View::ALL {
+            ui.selectable_value(&mut studio.view, view, view.name());
+        }
+    });
+}

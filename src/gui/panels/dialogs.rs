@@ -1,0 +1,237 @@
+//! Windows in the window: files, help, closing with changes.
+
+use super::commands::HELP;
+use crate::gui::examples::is_scene;
+use crate::gui::studio::Studio;
+use eframe::egui::{Align2, Context, Grid, Id, Key, Modal, ScrollArea, TextEdit, Ui, ViewportCommand, Window};
+use std::env;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// What a file is chosen for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Purpose {
+    Open,
+    SaveScene,
+    SavePicture,
+}
+
+impl Purpose {
+    const fn title(self) -> &'static str {
+        match self {
+            Purpose::Open => "Open scene",
+            Purpose::SaveScene => "Save scene as",
+            Purpose::SavePicture => "Save picture",
+        }
+    }
+
+    const fn verb(self) -> &'static str {
+        if matches!(self, Purpose::Open) { "Open" } else { "Save" }
+    }
+}
+
+/// A file that is being chosen.
+struct Choice {
+    purpose: Purpose,
+    folder: PathBuf,
+    name: String,
+    folders: Vec<PathBuf>,
+    files: Vec<PathBuf>,
+    is_new: bool,
+}
+
+impl Choice {
+    fn new(purpose: Purpose, path: &Path) -> Choice {
+        let path = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
+        let folder = path.parent().unwrap_or(Path::new("/")).to_path_buf();
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let mut choice =
+            Choice { purpose, folder, name, folders: Vec::new(), files: Vec::new(), is_new: true };
+        choice.list();
+        choice
+    }
+
+    /// Looks into the folder.
+    fn list(&mut self) {
+        let entries = fs::read_dir(&self.folder).into_iter().flatten().flatten().map(|entry| entry.path());
+        let is_hidden = |path: &Path| path.file_name().is_none_or(|name| name.to_string_lossy().starts_with('.'));
+        let mut all: Vec<PathBuf> = entries.filter(|path| !is_hidden(path)).collect();
+        all.sort();
+        let is_wanted = |path: &PathBuf| match self.purpose {
+            Purpose::SavePicture => crate::picture::Format::of(path).is_ok(),
+            _ => is_scene(path),
+        };
+        self.folders = all.iter().filter(|path| path.is_dir()).cloned().collect();
+        self.files = all.into_iter().filter(|path| path.is_file() && is_wanted(path)).collect();
+    }
+
+    fn enter(&mut self, folder: PathBuf) {
+        self.folder = folder;
+        self.list();
+    }
+
+    /// Draws it; the file that was chosen.
+    fn show(&mut self, ui: &mut Ui) -> Option<PathBuf> {
+        let mut chosen = None;
+        ui.horizontal(|ui| {
+            if ui.button("Up").clicked()
+                && let Some(parent) = self.folder.parent()
+            {
+                self.enter(parent.to_path_buf());
+            }
+            ui.label(self.folder.display().to_string());
+        });
+        ScrollArea::vertical().max_height(260.0).auto_shrink([false, false]).show(ui, |ui| {
+            for folder in self.folders.clone() {
+                let name = folder.file_name().unwrap_or_default().to_string_lossy();
+                if ui.selectable_label(false, format!("{name}/")).clicked() {
+                    self.enter(folder);
+                }
+            }
+            for file in &self.files {
+                let name = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
+                let label = ui.selectable_label(self.name == name, &name);
+                if label.clicked() {
+                    self.name = name;
+                }
+                if label.double_clicked() {
+                    chosen = Some(file.clone());
+                }
+            }
+        });
+        ui.horizontal(|ui| {
+            let edit = ui.add(TextEdit::singleline(&mut self.name).id_salt("name").desired_width(300.0));
+            if std::mem::take(&mut self.is_new) {
+                edit.request_focus();
+            }
+            let is_entered = edit.lost_focus() && ui.ctx().input(|input| input.key_pressed(Key::Enter));
+            if (ui.button(self.purpose.verb()).clicked() || is_entered) && !self.name.is_empty() {
+                let path = self.folder.join(&self.name);
+                if path.is_dir() {
+                    self.name.clear();
+                    self.enter(path);
+                } else {
+                    chosen = Some(path);
+                }
+            }
+        });
+        chosen
+    }
+}
+
+/// The windows that may be open.
+#[derive(Default)]
+pub struct Dialogs {
+    /// Whether the list of shortcuts is shown.
+    pub is_help_open: bool,
+    /// Whether it is asked what to do with changes before the window closes.
+    pub is_closing: bool,
+    /// Whether the window closes whatever has changed.
+    pub may_close: bool,
+    choice: Option<Choice>,
+}
+
+impl Dialogs {
+    /// Whether one of them has the keyboard.
+    pub fn is_any_open(&self) -> bool {
+        self.choice.is_some() || self.is_closing
+    }
+
+    /// Asks for a scene.
+    pub fn open_scene(&mut self, studio: &Studio) {
+        let here = env::current_dir().unwrap_or_default().join("scenes/x");
+        let near = studio.document.path.clone().or_else(|| studio.kept.recent.first().cloned());
+        let near = near.filter(|path| path.exists()).unwrap_or(here);
+        let mut choice = Choice::new(Purpose::Open, &near);
+        if !choice.folder.is_dir() {
+            choice.enter(env::current_dir().unwrap_or_else(|_| "/".into()));
+        }
+        choice.name.clear();
+        self.choice = Some(choice);
+    }
+
+    /// Asks where the scene goes.
+    pub fn save_scene(&mut self, studio: &Studio) {
+        let path = studio.document.path.clone().unwrap_or_else(|| "scene.yaml".into());
+        self.choice = Some(Choice::new(Purpose::SaveScene, &path));
+    }
+
+    /// Asks where the picture goes.
+    pub fn save_picture(&mut self, studio: &Studio) {
+        self.choice = Some(Choice::new(Purpose::SavePicture, Path::new(&studio.kept.knobs.image)));
+    }
+
+    pub(super) fn show(&mut self, ctx: &Context, studio: &mut Studio) {
+        self.show_help(ctx);
+        self.show_choice(ctx, studio);
+        self.show_closing(ctx, studio);
+    }
+
+    fn show_choice(&mut self, ctx: &Context, studio: &mut Studio) {
+        let Some(choice) = &mut self.choice else { return };
+        let mut is_open = true;
+        let (title, purpose) = (choice.purpose.title(), choice.purpose);
+        let shown = Window::new(title)
+            .open(&mut is_open)
+            .collapsible(false)
+            .default_width(420.0)
+            .pivot(Align2::CENTER_CENTER)
+            .default_pos(ctx.content_rect().center())
+            .show(ctx, |ui| choice.show(ui));
+        let chosen = shown.and_then(|shown| shown.inner.flatten());
+        let is_left = ctx.input(|input| input.key_pressed(Key::Escape));
+        if let Some(path) = &chosen {
+            match purpose {
+                Purpose::Open => studio.open(path),
+                Purpose::SaveScene => studio.save_scene(Some(path)),
+                Purpose::SavePicture => studio.save_picture(path),
+            }
+        }
+        if chosen.is_some() || !is_open || is_left {
+            self.choice = None;
+        }
+    }
+
+    fn show_help(&mut self, ctx: &Context) {
+        if self.is_help_open && ctx.input(|input| input.key_pressed(Key::Escape)) {
+            self.is_help_open = false;
+        }
+        let window = Window::new("Mouse and keys").open(&mut self.is_help_open).collapsible(false);
+        window.pivot(Align2::CENTER_CENTER).default_pos(ctx.content_rect().center()).show(ctx, |ui| {
+            Grid::new("help").num_columns(2).striped(true).show(ui, |ui| {
+                for (keys, meaning) in HELP {
+                    ui.strong(keys);
+                    ui.label(meaning);
+                    ui.end_row();
+                }
+            });
+        });
+    }
+
+    fn show_closing(&mut self, ctx: &Context, studio: &mut Studio) {
+        if !self.is_closing {
+            return;
+        }
+        let modal = Modal::new(Id::unique("closing")).show(ctx, |ui| {
+            ui.heading("The scene has changes that are not saved");
+            ui.horizontal(|ui| {
+                if ui.button("Save and close").clicked() {
+                    studio.save_scene(None);
+                    self.may_close = !studio.is_edited();
+                    self.is_closing = false;
+                }
+                if ui.button("Close without saving").clicked() {
+                    self.may_close = true;
+                    self.is_closing = false;
+                }
+                if ui.button("Cancel").clicked() {
+                    self.is_closing = false;
+                }
+            });
+        });
+        self.is_closing &= !modal.should_close();
+        if self.may_close {
+            ctx.send_viewport_cmd(ViewportCommand::Close);
+        }
+    }
+}

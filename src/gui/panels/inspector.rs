@@ -1,0 +1,127 @@
+//! The pixel under the mouse, the histogram, and the stored picture.
+
+use super::Canvas;
+use super::objects::name;
+use crate::cli::console::digits;
+use crate::gui::display::{Shown, View};
+use crate::gui::session::Frame;
+use crate::gui::studio::Studio;
+use crate::render::FAR;
+use eframe::egui::{CollapsingHeader, Color32, Grid, Pos2, Sense, Shape, Slider, Stroke, Ui, vec2};
+
+pub(super) fn show(ui: &mut Ui, studio: &mut Studio, canvas: &Canvas) {
+    CollapsingHeader::new("Pixel").default_open(true).show(ui, |ui| {
+        let frame = studio.session.frame();
+        let lines = frame.zip(canvas.pixel).and_then(|(frame, pixel)| lines(&frame, pixel));
+        let lines = lines.unwrap_or_else(|| NAMES.map(|name| (name, "–".to_owned())));
+        Grid::new("pixel").num_columns(2).show(ui, |ui| {
+            for (name, value) in lines {
+                ui.label(name);
+                ui.monospace(value);
+                ui.end_row();
+            }
+        });
+    });
+    CollapsingHeader::new("Histogram").default_open(true).show(ui, |ui| {
+        if let Some(shown) = canvas.shown() {
+            histogram(ui, shown);
+        }
+    });
+    CollapsingHeader::new("Compare").default_open(true).show(ui, |ui| compare(ui, studio));
+}
+
+/// The lines of the inspector.
+const NAMES: [&str; 9] =
+    ["Pixel", "Red", "Green", "Blue", "Samples", "Std. error", "Depth", "Normal", "Object"];
+
+fn lines(frame: &Frame, [x, y]: [usize; 2]) -> Option<[(&'static str, String); 9]> {
+    let pixel = frame.index(x, y)?;
+    let light = frame.light.get(pixel)?;
+    let look = frame.look.as_ref();
+    let depth = look.and_then(|look| look.depth.get(pixel)).filter(|&&depth| depth < FAR);
+    let normal = look.and_then(|look| look.normal.get(3 * pixel..3 * pixel + 3));
+    let object = look.map(|look| match look.object_at(pixel) {
+        Some(object) => {
+            frame.loaded.scene.desc.objects.get(object).map_or_else(String::new, |desc| name(object, desc))
+        }
+        None => "sky".to_owned(),
+    });
+    let shown = |value: Option<String>| value.unwrap_or_else(|| "–".into());
+    let number = |value: f64| digits(value, 5);
+    let normal = normal.map(|normal| {
+        let parts: Vec<String> = normal.iter().map(|value| format!("{value:.2}")).collect();
+        parts.join(" ")
+    });
+    let values = [
+        format!("{x}, {y}"),
+        number(light.x),
+        number(light.y),
+        number(light.z),
+        frame.count(pixel).to_string(),
+        shown(frame.error(pixel).map(|error| digits(error.into(), 3))),
+        shown(depth.map(|&depth| digits(depth.into(), 5))),
+        shown(normal),
+        shown(object),
+    ];
+    let mut lines = NAMES.map(|name| (name, String::new()));
+    for (line, value) in lines.iter_mut().zip(values) {
+        line.1 = value;
+    }
+    Some(lines)
+}
+
+fn histogram(ui: &mut Ui, shown: &Shown) {
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 60.0), Sense::hover());
+    ui.painter().rect_filled(rect, 2.0, ui.visuals().extreme_bg_color);
+    let most = shown.histogram.iter().flat_map(|channel| &channel[1..255]).copied().max().unwrap_or(0).max(1);
+    let is_dark = ui.visuals().dark_mode;
+    let colors = if is_dark {
+        [Color32::from_rgb(255, 90, 90), Color32::from_rgb(90, 220, 90), Color32::from_rgb(110, 150, 255)]
+    } else {
+        [Color32::from_rgb(200, 30, 30), Color32::from_rgb(20, 130, 20), Color32::from_rgb(30, 60, 200)]
+    };
+    for (channel, color) in shown.histogram.iter().zip(colors) {
+        let points = channel.iter().enumerate().map(|(byte, &count)| {
+            let height = (count as f32 / most as f32).sqrt().min(1.0);
+            Pos2::new(
+                rect.left() + rect.width() * (byte as f32 + 0.5) / 256.0,
+                rect.bottom() - height * (rect.height() - 2.0),
+            )
+        });
+        ui.painter().add(Shape::line(points.collect(), Stroke::new(1.0, color)));
+    }
+    response.on_hover_text("How often each brightness is on the screen; heights are square roots");
+    let total = shown.image.pixels.len().max(1) as f64;
+    let share = |byte: usize| {
+        let count = shown.histogram.iter().map(|channel| channel[byte]).max().unwrap_or(0);
+        100.0 * f64::from(count) / total
+    };
+    if shown.request.view == View::Picture {
+        ui.weak(format!("black {:.1} %, white {:.1} %", share(0), share(255)));
+    }
+    if let Some(error) = shown.error {
+        ui.weak(format!("relative error of all: {} %", digits(100.0 * error, 2)));
+    }
+}
+
+fn compare(ui: &mut Ui, studio: &mut Studio) {
+    ui.horizontal(|ui| {
+        if ui.button("Store as A").on_hover_text("Keep this picture to compare others with (A)").clicked() {
+            studio.store();
+        }
+        let mut is_on = studio.wipe.is_some();
+        let has_stored = studio.stored.is_some();
+        ui.add_enabled_ui(has_stored, |ui| {
+            if ui.checkbox(&mut is_on, "Wipe").on_hover_text("A on the left (W)").changed() {
+                studio.wipe = is_on.then_some(0.5);
+            }
+        });
+    });
+    if let Some(share) = &mut studio.wipe {
+        ui.add(Slider::new(share, 0.0..=1.0).show_value(false));
+    }
+    if let Some(stored) = &studio.stored {
+        let [width, height] = stored.size();
+        ui.weak(format!("A: {width} x {height}, {} samples", stored.samples));
+    }
+}

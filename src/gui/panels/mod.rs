@@ -1,0 +1,54 @@
+//! The widgets of the window.
+
+mod bar;
+mod canvas;
+mod commands;
+mod dialogs;
+mod inspector;
+mod objects;
+mod parameters;
+mod sky;
+mod status;
+mod zoom;
+
+pub use canvas::Canvas;
+pub use dialogs::Dialogs;
+pub use zoom::{Zoom, pixel_at};
+
+use super::studio::Studio;
+use eframe::egui::{CentralPanel, Frame, Panel, ScrollArea, Ui};
+
+/// What is drawn, beside what [`Studio`] holds.
+#[derive(Default)]
+pub struct Desk {
+    /// The picture's place.
+    pub canvas: Canvas,
+    /// Windows in the window.
+    pub dialogs: Dialogs,
+}
+
+impl Desk {
+    /// Draws everything.
+    pub fn show(&mut self, ui: &mut Ui, studio: &mut Studio) {
+        studio.update();
+        commands::drop_files(ui, studio);
+        commands::keys(ui, studio, self);
+        Panel::top("bar").show(ui, |ui| bar::show(ui, studio, self));
+        Panel::bottom("status").show(ui, |ui| status::show(ui, studio));
+        Panel::left("parameters").default_size(280.0).size_range(260.0..=420.0).show(ui, |ui| {
+            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                parameters::show(ui, studio);
+                sky::show(ui, studio);
+            });
+        });
+        Panel::right("inspector").default_size(280.0).size_range(260.0..=420.0).show(ui, |ui| {
+            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                inspector::show(ui, studio, &self.canvas);
+                objects::show(ui, studio);
+            });
+        });
+        let frame = Frame::NONE.fill(ui.visuals().extreme_bg_color);
+        CentralPanel::default().frame(frame).show(ui, |ui| self.canvas.show(ui, studio));
+        self.dialogs.show(ui.ctx(), studio);
+    }
+}

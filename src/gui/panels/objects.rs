@@ -1,0 +1,133 @@
+//! The objects and their materials.
+
+use super::sky::{radiance, reflectance};
+use crate::cli::console::{number, printable};
+use crate::gui::studio::Studio;
+use crate::scene::desc::{ObjectDesc, ShapeDesc};
+use crate::scene::edit::{Surface, SurfaceKind};
+use eframe::egui::{CollapsingHeader, ComboBox, DragValue, Grid, ScrollArea, Slider, TextStyle, Ui};
+
+pub(super) fn show(ui: &mut Ui, studio: &mut Studio) {
+    let Some(loaded) = studio.document.loaded.clone() else { return };
+    let objects = &loaded.scene.desc.objects;
+    let title = format!("Objects ({})", objects.len());
+    CollapsingHeader::new(title).id_salt("objects").default_open(true).show(ui, |ui| {
+        let height = ui.text_style_height(&TextStyle::Body) + 2.0 * ui.spacing().button_padding.y;
+        ScrollArea::vertical().id_salt("list").max_height(180.0).auto_shrink([false, true]).show_rows(
+            ui,
+            height,
+            objects.len(),
+            |ui, rows| {
+                for index in rows {
+                    let is_selected = studio.selected == Some(index);
+                    if ui.selectable_label(is_selected, name(index, &objects[index])).clicked() {
+                        studio.selected = (!is_selected).then_some(index);
+                    }
+                }
+            },
+        );
+    });
+    let Some((index, object)) = studio.selected.and_then(|index| Some((index, objects.get(index)?))) else {
+        ui.weak("A click on the picture selects an object.");
+        return;
+    };
+    CollapsingHeader::new("Material").default_open(true).show(ui, |ui| {
+        ui.label(name(index, object));
+        ui.weak(format!("{}; line {}", shape(object), object.location.line));
+        material(ui, studio, index);
+    });
+}
+
+/// What an object is called.
+pub(super) fn name(index: usize, object: &ObjectDesc) -> String {
+    let kind = match object.shape {
+        ShapeDesc::Ball { .. } => "Ball",
+        ShapeDesc::Box { .. } => "Box",
+        ShapeDesc::Rectangle { .. } => "Rectangle",
+        ShapeDesc::TriangleMesh { .. } => "Mesh",
+    };
+    let name = object.name.as_ref().or(object.material.name.as_ref());
+    match name {
+        Some(name) => format!("{} {kind}: {}", index + 1, printable(name)),
+        None => format!("{} {kind}", index + 1),
+    }
+}
+
+fn shape(object: &ObjectDesc) -> String {
+    match &object.shape {
+        ShapeDesc::Ball { radius, .. } => format!("radius {}", number(*radius)),
+        ShapeDesc::Box { size, .. } => size.to_array().map(number).join(" x "),
+        ShapeDesc::Rectangle { width, height, .. } => format!("{} x {}", number(*width), number(*height)),
+        ShapeDesc::TriangleMesh { mesh, file, .. } => {
+            let file = file.file_name().unwrap_or_default().to_string_lossy();
+            format!("{}, {} triangles", printable(&file), mesh.triangles.len())
+        }
+    }
+}
+
+fn material(ui: &mut Ui, studio: &mut Studio, index: usize) {
+    let surface = studio.editable.as_ref().and_then(|editable| editable.surfaces.get(index)?.clone());
+    let Some(mut surface) = surface else {
+        ui.weak("Its materials come from the mesh's file.");
+        return;
+    };
+    Grid::new("material").num_columns(2).show(ui, |ui| fields(ui, &mut surface));
+    studio.edit(|editable| {
+        if let Some(place) = editable.surfaces.get_mut(index) {
+            *place = Some(surface);
+        }
+    });
+}
+
+fn fields(ui: &mut Ui, surface: &mut Surface) {
+    ui.label("Type");
+    ComboBox::from_id_salt("type").selected_text(surface.kind.name()).show_ui(ui, |ui| {
+        for kind in SurfaceKind::ALL {
+            ui.selectable_value(&mut surface.kind, kind, kind.name());
+        }
+    });
+    ui.end_row();
+    color(ui, "Colour", &mut surface.color, surface.has_color_picture);
+    match surface.kind {
+        SurfaceKind::Diffuse => {
+            ui.label("Emission");
+            let speed = 0.01 * surface.emission_strength.max(1.0);
+            ui.add(DragValue::new(&mut surface.emission_strength).speed(speed).range(0.0..=1e6).clamp_existing_to_range(false));
+            ui.end_row();
+            if surface.emission_strength > 0.0 {
+                ui.label("Light");
+                radiance(ui, &mut surface.emission_color);
+                ui.end_row();
+            }
+        }
+        SurfaceKind::Reflective => share(ui, "Specularity", &mut surface.specularity),
+        SurfaceKind::ClearCoat => {
+            share(ui, "Coat", &mut surface.coat);
+            color(ui, "Coat colour", &mut surface.coat_color, surface.has_coat_picture);
+            share(ui, "Specularity", &mut surface.specularity);
+        }
+        SurfaceKind::Refractive => {
+            ui.label("n out / n in");
+            ui.add(DragValue::new(&mut surface.ratio).speed(0.005).range(0.01..=100.0).clamp_existing_to_range(false))
+                .on_hover_text("n outside / n inside: about 0.67 for glass, 0.42 for diamond");
+            ui.end_row();
+        }
+    }
+}
+
+fn color(ui: &mut Ui, label: &str, color: &mut crate::math::Rgb, is_picture: bool) {
+    ui.label(label);
+    if is_picture {
+        ui.weak("a picture");
+    } else {
+        reflectance(ui, color);
+    }
+    ui.end_row();
+}
+
+fn share(ui: &mut Ui, label: &str, value: &mut f64) {
+    ui.label(label);
+    ui.spacing_mut().slider_width = 80.0;
+    ui.add(Slider::new(value, 0.0..=1.0).max_decimals(3));
+    ui.end_row();
+}

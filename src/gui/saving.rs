@@ -1,0 +1,54 @@
+//! Writing a picture that is shown, beside the window's thread.
+
+use super::session::Frame;
+use crate::error::Result;
+use crate::output::{Provenance, Target, Wanted};
+use crate::scene::{self, edit};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, channel};
+use std::thread;
+
+/// Writes on a thread of its own; `wake` is called when it is done.
+pub fn start(
+    frame: Arc<Frame>,
+    path: PathBuf,
+    exposure: f64,
+    wake: impl FnOnce() + Send + 'static,
+) -> Receiver<std::result::Result<PathBuf, String>> {
+    let (sender, receiver) = channel();
+    thread::spawn(move || {
+        let written = write(&frame, &path, exposure).map(|()| path).map_err(|error| error.to_string());
+        // A window that is gone has waited, or does not want to know.
+        let _ = sender.send(written);
+        wake();
+    });
+    receiver
+}
+
+/// Writes what the command line would write for as many samples of the scene as it is by now, saved.
+///
+/// # Errors
+/// As [`Target::new`] and [`Target::write_light`], and those of [`edit::save`].
+pub fn write(frame: &Frame, path: &Path, exposure: f64) -> Result<()> {
+    let target = Target::new(Wanted { image: path.to_path_buf(), exposure, ..Wanted::default() })?;
+    let loaded = &frame.loaded;
+    let digest = if *frame.editable == loaded.editable {
+        loaded.scene.digest
+    } else {
+        let text = edit::save(&loaded.text, &loaded.scene.desc, &frame.editable)?;
+        scene::parse(&text, &loaded.path)?.digest
+    };
+    let provenance = Provenance {
+        scene: &loaded.path,
+        digest,
+        camera: &frame.editable.camera,
+        world: &frame.world,
+        settings: &frame.settings,
+        samples: frame.samples,
+        is_clamped: false,
+        exposure,
+    };
+    let light: Vec<f64> = frame.light.iter().flat_map(|light| light.to_array()).collect();
+    target.write_light(&provenance, &light)
+}

@@ -1,0 +1,234 @@
+//! The thread that takes orders.
+
+use super::follow::Follow;
+use super::{Order, Purpose, Shared, Stage};
+use crate::error::Result;
+use crate::geometry::Geometry;
+use crate::math::Rgb;
+use crate::output::{Provenance, Target, Wanted};
+use crate::render::{Ended, Prepared, Rendered, Settings, in_pool};
+use crate::scene::desc::MaterialKind;
+use crate::scene::edit::{self, Editable};
+use crate::scene::{self, Digest};
+use crate::world::World;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// The time that the first picture may take, in seconds, on top of what comes before it.
+const FIRST_PICTURE: f64 = 0.03;
+/// The fewest pixels of a picture that comes first.
+const FEWEST_PIXELS: f64 = 2000.0;
+/// Samples a second that are expected before any are taken.
+const EXPECTED_RATE: f64 = 300_000.0;
+
+/// An order, ready to be rendered.
+pub(super) struct Task {
+    pub(super) job: u64,
+    pub(super) order: Order,
+    pub(super) world: Arc<World>,
+    /// Of the scene with its edits; only a final render needs it.
+    digest: Option<Digest>,
+}
+
+/// Takes orders until the end.
+pub(super) fn serve(shared: &Shared) {
+    let mut rate = EXPECTED_RATE;
+    let Some(mut task) = next_task(shared, None) else { return };
+    loop {
+        let geometry: Arc<Geometry> = Arc::clone(&task.world.geometry);
+        let next = match Prepared::build(&geometry, &task.order.settings) {
+            Ok(prepared) => serve_with(shared, &prepared, task, &mut rate),
+            Err(error) => {
+                shared.tell(task.job, |status| status.stage = Stage::Failed(error.to_string()));
+                next_task(shared, Some(&task))
+            }
+        };
+        match next {
+            Some(next) => task = next,
+            None => return,
+        }
+    }
+}
+
+/// Takes orders while the accelerator fits; the first that needs another one.
+fn serve_with(shared: &Shared, prepared: &Prepared<'_>, mut task: Task, rate: &mut f64) -> Option<Task> {
+    while prepared.fits(&task.world, &task.order.settings) {
+        let stage = match run(shared, prepared, &task, rate) {
+            Ok(ended) => Stage::Done(ended),
+            Err(error) => Stage::Failed(error.to_string()),
+        };
+        shared.tell(task.job, |status| status.stage = stage);
+        task = next_task(shared, Some(&task))?;
+    }
+    Some(task)
+}
+
+/// Waits for an order and compiles it; `None` at the end.
+fn next_task(shared: &Shared, last: Option<&Task>) -> Option<Task> {
+    loop {
+        let (job, order) = shared.next()?;
+        (shared.notify)();
+        match compile(job, order, last) {
+            Ok(task) => return Some(task),
+            Err(error) => shared.tell(job, |status| status.stage = Stage::Failed(error.to_string())),
+        }
+    }
+}
+
+/// Compiles the scene of an order, with as much as possible of the last one's.
+fn compile(job: u64, order: Order, last: Option<&Task>) -> Result<Task> {
+    order.settings.check()?;
+    let Order { loaded, editable, .. } = &order;
+    let is_final = matches!(order.purpose, Purpose::Final(_));
+    let last = last.filter(|last| Arc::ptr_eq(&last.order.loaded, loaded));
+    if !is_final
+        && let Some(last) = last
+        && has_same_surfaces(&last.order.editable, editable)
+    {
+        let world = Arc::clone(&last.world);
+        return Ok(Task { job, order, world, digest: None });
+    }
+    let is_edited = **editable != loaded.editable;
+    let (desc, digest) = if is_final && is_edited {
+        // Exactly what the command line reads from the saved file.
+        let text = edit::save(&loaded.text, &loaded.scene.desc, editable)?;
+        let scene = in_pool(&order.settings, || scene::parse(&text, &loaded.path))?;
+        (scene.desc, Some(scene.digest))
+    } else {
+        let mut desc = loaded.scene.desc.clone();
+        editable.put(&mut desc);
+        (desc, (!is_edited).then_some(loaded.scene.digest))
+    };
+    let mut world = in_pool(&order.settings, || World::compile(&desc))?;
+    if let Some(last) = last
+        && has_same_shapes(&last.order.editable, editable)
+    {
+        world.geometry = Arc::clone(&last.world.geometry);
+    }
+    Ok(Task { job, order, world: Arc::new(world), digest })
+}
+
+/// Whether two states differ in their cameras at most.
+fn has_same_surfaces(a: &Editable, b: &Editable) -> bool {
+    a.environment == b.environment && a.rotation == b.rotation && a.surfaces == b.surfaces
+}
+
+/// Whether the shapes of a scene compile to the same: a mesh that emits light gets triangles of its own.
+fn has_same_shapes(a: &Editable, b: &Editable) -> bool {
+    let emits = |editable: &Editable| -> Vec<bool> {
+        let of_kind =
+            |kind| matches!(kind, MaterialKind::Diffuse { emission, .. } if emission != Rgb::ZERO);
+        let surfaces = editable.surfaces.iter();
+        surfaces.map(|surface| surface.as_ref().is_some_and(|surface| of_kind(surface.material()))).collect()
+    };
+    emits(a) == emits(b)
+}
+
+/// Renders a task: first smaller pictures, if it is a preview.
+fn run(shared: &Shared, prepared: &Prepared<'_>, task: &Task, rate: &mut f64) -> Result<Ended> {
+    shared.tell(task.job, |status| {
+        status.stage = Stage::Rendering;
+        status.build_seconds = prepared.build_seconds();
+    });
+    let full = &task.order.settings;
+    let target = match &task.order.purpose {
+        Purpose::Final(wanted) => Some(Target::new(wanted.clone())?),
+        Purpose::Preview => {
+            for settings in coarser(full, *rate) {
+                let follow = Follow::new(shared, task, prepared, &settings, true, None);
+                let rendered =
+                    prepared.render(&task.world, &task.order.editable.camera, &settings, &follow)?;
+                if rendered.ended == Ended::Cancelled {
+                    return Ok(Ended::Cancelled);
+                }
+                learn(rate, &rendered);
+            }
+            None
+        }
+    };
+    let look = target.as_ref().and_then(|_| Follow::new(shared, task, prepared, full, false, None).look());
+    let follow = Follow::new(shared, task, prepared, full, false, look);
+    let rendered = prepared.render(&task.world, &task.order.editable.camera, full, &follow)?;
+    learn(rate, &rendered);
+    if shared.is_newest(task.job) && rendered.film.samples() > 0 {
+        follow.show(rendered.film.means().collect(), rendered.film.samples(), &rendered.film);
+        conclude(shared, task, &rendered);
+    }
+    if let Some(target) = target
+        && rendered.film.samples() > 0
+    {
+        let path = write(&target, task, &rendered)?;
+        shared.tell(task.job, |status| status.written = path);
+    }
+    Ok(rendered.ended)
+}
+
+/// Tells the last numbers of a render.
+fn conclude(shared: &Shared, task: &Task, rendered: &Rendered) {
+    shared.tell(task.job, |status| {
+        status.samples = rendered.samples;
+        status.rays = rendered.counters.rays;
+        status.seconds = rendered.render_seconds;
+        let error = rendered.error.as_ref().map(|error| error.relative.value);
+        status.outlook.error = error.or(status.outlook.error);
+        status.outlook.error_at_end = status.outlook.error;
+        status.outlook.seconds_left = Some(0.0);
+    });
+}
+
+/// Writes a final picture, as the command line does.
+fn write(target: &Target, task: &Task, rendered: &Rendered) -> Result<Option<PathBuf>> {
+    let Some(digest) = task.digest else { return Ok(None) };
+    let provenance = Provenance {
+        scene: &task.order.loaded.path,
+        digest,
+        camera: &task.order.editable.camera,
+        world: &task.world,
+        settings: &task.order.settings,
+        samples: rendered.film.samples(),
+        is_clamped: rendered.counters.clamped > 0,
+        exposure: wanted_exposure(&task.order.purpose),
+    };
+    target.write(&provenance, rendered)?;
+    Ok(Some(target.picture().path().to_path_buf()))
+}
+
+fn wanted_exposure(purpose: &Purpose) -> f64 {
+    match purpose {
+        Purpose::Final(Wanted { exposure, .. }) => *exposure,
+        Purpose::Preview => 0.0,
+    }
+}
+
+/// Remembers how fast samples are taken.
+fn learn(rate: &mut f64, rendered: &Rendered) {
+    let samples = rendered.samples();
+    if samples >= FEWEST_PIXELS && rendered.render_seconds > 0.0 {
+        *rate = samples / rendered.render_seconds;
+    }
+}
+
+/// The smaller pictures that come before the full one, one sample a pixel each: the first as large as its time allows, the
+/// next with four times its sides.
+fn coarser(full: &Settings, rate: f64) -> Vec<Settings> {
+    let pixels = f64::from(full.width) * f64::from(full.height);
+    let affordable = (rate * FIRST_PICTURE).max(FEWEST_PIXELS);
+    let mut stages = Vec::new();
+    let mut shrink = 1;
+    while pixels / f64::from(shrink * shrink) > affordable {
+        shrink *= 2;
+    }
+    while shrink > 1 {
+        stages.push(Settings {
+            width: full.width.div_ceil(shrink),
+            height: full.height.div_ceil(shrink),
+            samples: 1,
+            noise: None,
+            time: None,
+            error_estimate: false,
+            ..full.clone()
+        });
+        shrink /= if shrink >= 8 { 4 } else { shrink };
+    }
+    stages
+}

@@ -1,0 +1,436 @@
+//! The state of the window and what its commands do, apart from how it is drawn.
+
+use super::camera_control;
+use super::display::{Display, View};
+use super::document::{Document, Event, Loaded};
+use super::form::Form;
+use super::history::History;
+use super::pick::{self, Pick, Tool};
+use super::saving;
+use super::session::{Frame, Order, Purpose, Session, Stage, Status};
+use super::settings::Kept;
+use crate::output::Wanted;
+use crate::render::{AccelKind, Settings};
+use crate::scene::edit::{self, Editable};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, TryRecvError};
+use std::time::{Duration, Instant};
+
+/// How long the place of the picture must keep its size before the preview follows.
+const SETTLED: Duration = Duration::from_millis(200);
+
+/// Called, from any thread, when there is something new to draw.
+pub type Wake = Arc<dyn Fn() + Send + Sync>;
+
+/// Something to be read at the foot of the window.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Notice {
+    /// What.
+    pub text: String,
+    /// Whether something went wrong.
+    pub is_error: bool,
+}
+
+/// What a preview depends on, but for its size.
+#[derive(Clone, Debug, PartialEq)]
+struct Key {
+    loaded: usize,
+    version: u64,
+    settings: (u64, u32, AccelKind, crate::accel::Precision, crate::sampling::SamplerKind),
+}
+
+/// Everything behind the window.
+pub struct Studio {
+    /// What is kept between runs.
+    pub kept: Kept,
+    /// The scene file.
+    pub document: Document,
+    /// What the scene says by now.
+    pub editable: Option<Arc<Editable>>,
+    /// The renders.
+    pub session: Session,
+    /// What is shown.
+    pub display: Display,
+    /// What is shown of the stored picture.
+    pub stored_display: Display,
+    /// The picture that others are compared with.
+    pub stored: Option<Arc<Frame>>,
+    /// Where the stored picture ends and the other begins, as a share of the width; `None` if it is not shown.
+    pub wipe: Option<f32>,
+    /// The fields.
+    pub form: Form,
+    /// The selected object.
+    pub selected: Option<usize>,
+    /// What of the picture is shown.
+    pub view: View,
+    /// What a click does.
+    pub tool: Tool,
+    /// What is to be read.
+    pub notice: Option<Notice>,
+    wake: Wake,
+    history: History,
+    version: u64,
+    place: [u32; 2],
+    next_place: ([u32; 2], Instant),
+    ordered: Option<(Key, [u32; 2])>,
+    is_final: bool,
+    told: u64,
+    picking: Option<Receiver<Pick>>,
+    saving: Option<Receiver<Result<PathBuf, String>>>,
+}
+
+impl Studio {
+    /// A window without a scene.
+    pub fn new(kept: Kept, wake: Wake) -> Studio {
+        let notify = |wake: &Wake| {
+            let wake = Arc::clone(wake);
+            move || wake()
+        };
+        Studio {
+            kept,
+            document: Document::default(),
+            editable: None,
+            session: Session::new(notify(&wake)),
+            display: Display::new(notify(&wake)),
+            stored_display: Display::new(notify(&wake)),
+            stored: None,
+            wipe: None,
+            form: Form::default(),
+            selected: None,
+            view: View::default(),
+            tool: Tool::default(),
+            notice: None,
+            history: History::default(),
+            version: 0,
+            place: [640, 360],
+            next_place: ([640, 360], Instant::now()),
+            ordered: None,
+            is_final: false,
+            told: 0,
+            picking: None,
+            saving: None,
+            wake,
+        }
+    }
+
+    fn waker(&self) -> impl Fn() + Send + 'static {
+        let wake = Arc::clone(&self.wake);
+        move || wake()
+    }
+
+    /// Begins to open a scene.
+    pub fn open(&mut self, path: &Path) {
+        let wake = self.waker();
+        self.document.open(path, wake);
+    }
+
+    /// Takes what has happened since the last look, and renders what has changed.
+    pub fn update(&mut self) {
+        let before = self.document.loaded.clone();
+        match self.document.poll() {
+            Some(Event::Loaded) => self.take_loaded(before),
+            Some(Event::Failed) => self.say_error("the scene has errors; the picture is that of the last good one".into()),
+            None => {}
+        }
+        if self.document.has_changed()
+            && let Some(path) = self.document.path.clone()
+        {
+            self.open(&path);
+        }
+        self.take_pick();
+        self.take_saved();
+        self.tell_end();
+        self.refresh();
+    }
+
+    /// Goes on with a scene that was read.
+    fn take_loaded(&mut self, before: Option<Arc<Loaded>>) {
+        let Some(loaded) = self.document.loaded.clone() else { return };
+        let is_reloaded = before.as_ref().is_some_and(|before| before.path == loaded.path);
+        let merged = match (&before, &self.editable) {
+            (Some(before), Some(editable)) if is_reloaded => {
+                merge(&before.editable, editable, &loaded.editable)
+            }
+            _ => loaded.editable.clone(),
+        };
+        if is_reloaded {
+            self.say("the scene was read again".into());
+        } else {
+            let stem = loaded.path.file_stem().unwrap_or_default().to_string_lossy();
+            self.kept.knobs.image = format!("{stem}.png");
+            self.kept.remember(&loaded.path);
+            self.selected = None;
+            self.notice = None;
+            self.history = History::default();
+        }
+        self.form.clear();
+        self.selected = self.selected.filter(|&object| object < loaded.scene.desc.objects.len());
+        self.editable = Some(Arc::new(merged));
+        self.version += 1;
+    }
+
+    /// Whether the scene differs from its file.
+    pub fn is_edited(&self) -> bool {
+        match (&self.document.loaded, &self.editable) {
+            (Some(loaded), Some(editable)) => loaded.editable != **editable,
+            _ => false,
+        }
+    }
+
+    /// Changes the scene, so that it can be undone.
+    pub fn edit(&mut self, change: impl FnOnce(&mut Editable)) {
+        let Some(editable) = &mut self.editable else { return };
+        let before = Arc::clone(editable);
+        change(Arc::make_mut(editable));
+        if before != *editable {
+            self.history.push(before);
+            self.version += 1;
+        }
+    }
+
+    /// Goes back one change, or forth.
+    pub fn undo(&mut self, is_back: bool) {
+        let Some(editable) = &mut self.editable else { return };
+        if let Some(other) = self.history.step(Arc::clone(editable), is_back) {
+            *editable = other;
+            self.version += 1;
+            self.form.clear();
+        }
+    }
+
+    /// The camera as it is in the file.
+    pub fn reset_camera(&mut self) {
+        if let Some(loaded) = self.document.loaded.clone() {
+            self.edit(|editable| editable.camera = loaded.editable.camera.clone());
+            self.form.clear();
+        }
+    }
+
+    /// Says how many pixels there are for the picture.
+    pub fn set_place(&mut self, place: [u32; 2]) {
+        if self.next_place.0 != place {
+            self.next_place = (place, Instant::now());
+        }
+        if self.ordered.is_none() || self.next_place.1.elapsed() >= SETTLED {
+            self.place = place;
+        }
+    }
+
+    /// Whether the place of the picture is changing its size, so that one more look is needed.
+    pub fn is_settling(&self) -> bool {
+        self.place != self.next_place.0
+    }
+
+    /// Of the preview.
+    pub fn preview_settings(&self) -> Settings {
+        self.kept.knobs.preview_settings(self.place)
+    }
+
+    fn key(&self) -> Option<(Key, [u32; 2])> {
+        let loaded = Arc::as_ptr(self.document.loaded.as_ref()?) as usize;
+        let settings = self.preview_settings();
+        let of = (settings.samples, settings.bounces, settings.accel, settings.precision, settings.sampler);
+        Some((Key { loaded, version: self.version, settings: of }, [settings.width, settings.height]))
+    }
+
+    /// Renders a preview if it would differ from what was ordered last. A final render is left alone, and its picture stays
+    /// until something other than the window's size changes.
+    fn refresh(&mut self) {
+        let Some(key) = self.key() else { return };
+        let is_same = match &self.ordered {
+            Some(ordered) if self.is_final => ordered.0 == key.0,
+            Some(ordered) => *ordered == key,
+            None => false,
+        };
+        if !is_same && !self.is_rendering_final() {
+            self.preview();
+        }
+    }
+
+    fn order(&self, settings: Settings, purpose: Purpose) -> Option<Order> {
+        let (loaded, editable) = (self.document.loaded.clone()?, self.editable.clone()?);
+        Some(Order { loaded, editable, settings, purpose })
+    }
+
+    /// Starts a preview.
+    pub fn preview(&mut self) {
+        if let Some(order) = self.order(self.preview_settings(), Purpose::Preview) {
+            self.ordered = self.key();
+            self.is_final = false;
+            self.session.order(order);
+        }
+    }
+
+    /// Starts the final render, which ends with a file.
+    pub fn render(&mut self) {
+        if self.is_rendering_final() {
+            return;
+        }
+        if let Some((field, error)) = self.form.wrong() {
+            return self.say_error(format!("{}: {error}", field.label()));
+        }
+        if let Err(error) = self.kept.knobs.check() {
+            return self.say_error(error.to_string());
+        }
+        let knobs = &self.kept.knobs;
+        let wanted =
+            Wanted { image: knobs.image.clone().into(), exposure: knobs.exposure, ..Wanted::default() };
+        if let Some(order) = self.order(knobs.settings(), Purpose::Final(wanted)) {
+            self.notice = None;
+            self.ordered = self.key();
+            self.is_final = true;
+            self.session.order(order);
+        }
+    }
+
+    /// Whether a final render is under way.
+    pub fn is_rendering_final(&self) -> bool {
+        self.is_final && self.session.status().is_busy()
+    }
+
+    /// Whether the picture is that of a final render.
+    pub fn is_final(&self) -> bool {
+        self.is_final
+    }
+
+    /// Says how a final render has ended, once.
+    fn tell_end(&mut self) {
+        let status = self.session.status();
+        if status.is_busy() || self.told == status.job {
+            return;
+        }
+        self.told = status.job;
+        match status {
+            Status { stage: Stage::Failed(why), .. } => self.say_error(why),
+            Status { written: Some(path), .. } => self.say(format!("{} is written", path.display())),
+            _ => {}
+        }
+    }
+
+    /// Looks what is at a point of the picture, for a click.
+    pub fn click(&mut self, frame: Arc<Frame>, at: [f64; 2], tool: Tool) {
+        let wake = self.waker();
+        self.picking = Some(pick::start(frame, at, tool, wake));
+    }
+
+    fn take_pick(&mut self) {
+        let Some(picking) = &self.picking else { return };
+        let pick = match picking.try_recv() {
+            Err(TryRecvError::Empty) => return,
+            Err(TryRecvError::Disconnected) => None,
+            Ok(pick) => Some(pick),
+        };
+        self.picking = None;
+        match pick {
+            Some(Pick { tool: Tool::Select, found }) => self.selected = found.map(|(object, _)| object),
+            Some(Pick { tool, found: Some((_, point)) }) => {
+                self.edit(|editable| match tool {
+                    Tool::Focus => camera_control::focus(&mut editable.camera, point),
+                    _ => camera_control::look_at(&mut editable.camera, point),
+                });
+                self.form.clear();
+            }
+            _ => self.say("there is only sky".into()),
+        }
+        self.tool = Tool::Select;
+    }
+
+    /// Writes the scene with its changes, to its file or another one.
+    pub fn save_scene(&mut self, path: Option<&Path>) {
+        let (Some(loaded), Some(editable)) = (self.document.loaded.clone(), self.editable.clone()) else {
+            return;
+        };
+        let path = path.unwrap_or(&loaded.path).to_path_buf();
+        let saved = edit::save(&loaded.text, &loaded.scene.desc, &editable)
+            .and_then(|text| self.document.save(text, &path));
+        match saved {
+            Ok(()) => {
+                self.kept.remember(&path);
+                self.say(format!("{} is saved", path.display()));
+                self.keep_picture();
+            }
+            Err(error) => self.say_error(error.to_string()),
+        }
+    }
+
+    /// Goes on with the picture of the scene that was just saved: it is the same.
+    fn keep_picture(&mut self) {
+        let Some(loaded) = &self.document.loaded else { return };
+        self.editable = Some(Arc::new(loaded.editable.clone()));
+        if self.ordered.is_some() {
+            self.ordered = self.key();
+        }
+    }
+
+    /// Writes the picture that is shown to a file.
+    pub fn save_picture(&mut self, path: &Path) {
+        let Some(frame) = self.session.frame() else {
+            return self.say_error("there is no picture to save yet".into());
+        };
+        let wake = self.waker();
+        self.saving = Some(saving::start(frame, path.to_path_buf(), self.kept.knobs.exposure, wake));
+    }
+
+    fn take_saved(&mut self) {
+        let Some(saving) = &self.saving else { return };
+        match saving.try_recv() {
+            Err(TryRecvError::Empty) => return,
+            Err(TryRecvError::Disconnected) => self.say_error("the picture could not be written".into()),
+            Ok(Ok(path)) => self.say(format!("{} is written", path.display())),
+            Ok(Err(error)) => self.say_error(error),
+        }
+        self.saving = None;
+    }
+
+    /// Ends what is under way, with its results written.
+    pub fn close(&mut self) {
+        if self.is_rendering_final() {
+            self.session.stop();
+            self.session.wait();
+        }
+        if let Some(saving) = self.saving.take() {
+            // What went wrong has no window left to be said in.
+            let _ = saving.recv();
+        }
+    }
+
+    /// Stores the picture to compare others with.
+    pub fn store(&mut self) {
+        self.stored = self.session.frame();
+        self.wipe = self.stored.as_ref().map(|_| 0.5);
+    }
+
+    /// Says something.
+    pub fn say(&mut self, text: String) {
+        self.notice = Some(Notice { text, is_error: false });
+    }
+
+    /// Says that something went wrong.
+    pub fn say_error(&mut self, text: String) {
+        self.notice = Some(Notice { text, is_error: true });
+    }
+}
+
+/// What the file says by now, with what was changed in the window since it was read before.
+fn merge(old: &Editable, edited: &Editable, new: &Editable) -> Editable {
+    let mut merged = new.clone();
+    if edited.camera != old.camera {
+        merged.camera = edited.camera.clone();
+    }
+    if edited.environment != old.environment {
+        merged.environment = edited.environment.clone();
+    }
+    if edited.rotation != old.rotation && new.rotation.is_some() {
+        merged.rotation = edited.rotation;
+    }
+    if old.surfaces.len() == new.surfaces.len() {
+        let all = merged.surfaces.iter_mut().zip(old.surfaces.iter().zip(&edited.surfaces));
+        for (merged, (old, edited)) in all {
+            if old != edited && merged.is_some() {
+                *merged = edited.clone();
+            }
+        }
+    }
+    merged
+}

@@ -1,0 +1,161 @@
+//! What renders of the same shapes share: the accelerator, built once.
+
+use super::chunks::take_samples;
+use super::{AccelKind, Ended, FeaturePlanes, Rendered, Settings, Watch, features, in_pool};
+use crate::accel::bvh::Bvh;
+#[cfg(feature = "embree")]
+use crate::accel::embree::Embree;
+use crate::accel::{Accelerator, BuildOptions};
+use crate::error::Result;
+use crate::geometry::Geometry;
+use crate::integrator::{FeatureTracer, Features, PathTracer};
+use crate::sampling::{Independent, Sampler, SamplerKind, Sobol};
+use crate::scene::desc::CameraDesc;
+use crate::world::World;
+use std::time::Instant;
+
+/// An accelerator over the shapes of a world, for renders with any camera, size and number of samples, and of all worlds that
+/// share the shapes.
+pub struct Prepared<'g> {
+    accelerator: Built<'g>,
+    geometry: &'g Geometry,
+    /// Those that it was built with.
+    settings: Settings,
+    build_seconds: f64,
+}
+
+enum Built<'g> {
+    #[cfg(feature = "embree")]
+    Embree(Embree<'g>),
+    Native(Bvh<'g>),
+}
+
+impl<'g> Prepared<'g> {
+    /// Builds what `settings` ask for. Errors: settings that can't be, an accelerator that can't be built.
+    pub fn build(geometry: &'g Geometry, settings: &Settings) -> Result<Prepared<'g>> {
+        settings.check()?;
+        in_pool(settings, || Prepared::build_here(geometry, settings))
+    }
+
+    /// [`Prepared::build`] in the pool that this thread is in.
+    pub(super) fn build_here(geometry: &'g Geometry, settings: &Settings) -> Result<Prepared<'g>> {
+        let start = Instant::now();
+        let Settings { precision, isa, bvh: quality, .. } = *settings;
+        let options = BuildOptions { precision, isa, quality, ..BuildOptions::default() };
+        let accelerator = match settings.accel {
+            #[cfg(feature = "embree")]
+            AccelKind::Embree => Built::Embree(Embree::build(geometry, &options)?),
+            #[cfg(not(feature = "embree"))]
+            AccelKind::Embree => return Err(super::no_embree()),
+            AccelKind::Native => Built::Native(Bvh::build(geometry, &options)?),
+        };
+        let build_seconds = start.elapsed().as_secs_f64();
+        Ok(Prepared { accelerator, geometry, settings: settings.clone(), build_seconds })
+    }
+
+    /// Whether a render of `world` with `settings` would build the same.
+    pub fn fits(&self, world: &World, settings: &Settings) -> bool {
+        let with = |settings: &Settings| (settings.accel, settings.precision, settings.isa, settings.bvh);
+        std::ptr::eq(self.geometry, &*world.geometry) && with(settings) == with(&self.settings)
+    }
+
+    /// Seconds that the building took.
+    pub fn build_seconds(&self) -> f64 {
+        self.build_seconds
+    }
+
+    /// As [`render`](super::render()). The world's shapes must be those of the accelerator: see [`Prepared::fits`].
+    pub fn render(
+        &self,
+        world: &World,
+        camera: &CameraDesc,
+        settings: &Settings,
+        watch: &dyn Watch,
+    ) -> Result<Rendered> {
+        settings.check()?;
+        in_pool(settings, || self.render_here(world, camera, settings, watch))
+    }
+
+    /// [`Prepared::render`] in the pool that this thread is in.
+    pub(super) fn render_here(
+        &self,
+        world: &World,
+        camera: &CameraDesc,
+        settings: &Settings,
+        watch: &dyn Watch,
+    ) -> Result<Rendered> {
+        let run = Run { world, camera, settings, watch };
+        let rendered = match &self.accelerator {
+            #[cfg(feature = "embree")]
+            Built::Embree(accelerator) => run.with_accel(accelerator),
+            Built::Native(accelerator) => run.with_accel(accelerator),
+        }?;
+        Ok(Rendered { build_seconds: self.build_seconds, ..rendered })
+    }
+
+    /// What is seen without the light, from `samples` samples a pixel. Pixels that are left when it is cancelled stay empty.
+    pub fn look(
+        &self,
+        world: &World,
+        camera: &CameraDesc,
+        settings: &Settings,
+        samples: u64,
+        watch: &dyn Watch,
+    ) -> Result<FeaturePlanes> {
+        settings.check()?;
+        let run = Run { world, camera, settings, watch };
+        in_pool(settings, || match &self.accelerator {
+            #[cfg(feature = "embree")]
+            Built::Embree(accelerator) => run.look(accelerator, samples),
+            Built::Native(accelerator) => run.look(accelerator, samples),
+        })
+    }
+}
+
+/// A render on its way to its types.
+struct Run<'r> {
+    world: &'r World,
+    camera: &'r CameraDesc,
+    settings: &'r Settings,
+    watch: &'r dyn Watch,
+}
+
+impl Run<'_> {
+    fn with_accel<A: Accelerator>(&self, accel: &A) -> Result<Rendered> {
+        match self.settings.sampler {
+            SamplerKind::Sobol => self.with_sampler(accel, Sobol::new(self.settings.seed)),
+            SamplerKind::Independent => self.with_sampler(accel, Independent::new(self.settings.seed)),
+        }
+    }
+
+    fn with_sampler<A: Accelerator, S: Sampler>(&self, accel: &A, sampler: S) -> Result<Rendered> {
+        let Settings { width, height, bounces, light_sampling, .. } = *self.settings;
+        let camera = self.world.camera(self.camera, width, height);
+        let tracer = PathTracer::new(self.world, &camera, accel, bounces, light_sampling);
+        let rendered = take_samples(self.settings, self.watch, |x, y, index, counters| {
+            tracer.sample(&sampler, x, y, index, counters)
+        })?;
+        let rendered = Rendered { brightest: self.world.brightest(), ..rendered };
+        if !self.settings.features {
+            return Ok(rendered);
+        }
+        let tracer = FeatureTracer { world: self.world, camera: &camera, accelerator: accel };
+        let start = Instant::now();
+        let features =
+            features::collect(self.settings, self.watch, rendered.film.samples(), |x, y, index| {
+                tracer.sample(&sampler, x, y, index)
+            })?;
+        let ended = if self.watch.cancelled() { Ended::Cancelled } else { rendered.ended };
+        let render_seconds = rendered.render_seconds + start.elapsed().as_secs_f64();
+        Ok(Rendered { features: Some(features), ended, render_seconds, ..rendered })
+    }
+
+    fn look<A: Accelerator>(&self, accelerator: &A, samples: u64) -> Result<FeaturePlanes> {
+        let camera = self.world.camera(self.camera, self.settings.width, self.settings.height);
+        let tracer = FeatureTracer { world: self.world, camera: &camera, accelerator };
+        let sampler = Sobol::new(self.settings.seed);
+        features::collect(self.settings, self.watch, samples, |x, y, index| {
+            if self.watch.cancelled() { Features::default() } else { tracer.sample(&sampler, x, y, index) }
+        })
+    }
+}

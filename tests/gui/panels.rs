@@ -1,0 +1,190 @@
+use super::Desk;
+use super::studio::{opened, until};
+use eframe::egui::accesskit::Role;
+use eframe::egui::{Key, Modifiers};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use pathtracer::gui::display::View;
+use pathtracer::gui::panels;
+use pathtracer::gui::pick::Tool;
+use pathtracer::gui::studio::Studio;
+
+/// The widgets of a window without a display.
+pub(super) type Window<'w> = Harness<'w, (Studio, panels::Desk)>;
+
+pub(super) fn window<'w>(desk: &Desk) -> Window<'w> {
+    let mut window = Harness::builder().with_size([1280.0, 800.0]).build_ui_state(
+        |ui, (studio, desk): &mut (Studio, panels::Desk)| desk.show(ui, studio),
+        (opened(desk), panels::Desk::default()),
+    );
+    window.run_steps(3);
+    window
+}
+
+fn press(window: &mut Window<'_>, key: Key) {
+    window.key_press(key);
+    window.run_steps(2);
+}
+
+/// Puts a text in the place of what is in a field.
+fn fill(window: &mut Window<'_>, label: &str, text: &str) {
+    window.get_by_role_and_label(Role::TextInput, label).click();
+    window.run_steps(2);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    window.run_steps(1);
+    window.get_by_role_and_label(Role::TextInput, label).type_text(text);
+    window.run_steps(2);
+}
+
+fn value(window: &Window<'_>, label: &str) -> String {
+    window.get_by_role_and_label(Role::TextInput, label).value().unwrap_or_default()
+}
+
+#[test]
+fn the_fields_are_filled_from_the_scene() {
+    let desk = Desk::new();
+    let window = window(&desk);
+    assert_eq!(value(&window, "Width"), "48");
+    assert_eq!(value(&window, "Field of view (°)"), "45");
+    assert_eq!(value(&window, "Depth of field"), "8");
+    assert_eq!(value(&window, "Focus distance"), "6");
+    assert_eq!(value(&window, "File"), "balls.png");
+}
+
+#[test]
+fn a_typed_number_changes_the_scene() {
+    let desk = Desk::new();
+    let mut window = window(&desk);
+    fill(&mut window, "Field of view (°)", "90");
+    let (studio, _) = window.state();
+    assert_eq!(studio.editable.as_ref().expect("a scene").camera.fov, 0.5);
+    assert!(studio.is_edited());
+}
+
+#[test]
+fn a_wrong_value_is_marked_at_its_field_with_the_reason() {
+    let desk = Desk::new();
+    let mut window = window(&desk);
+    fill(&mut window, "Bounces", "none");
+    window.get_by_label("expected a whole number from 1 to 65536");
+    assert_eq!(window.state().0.kept.knobs.bounces, 8);
+    fill(&mut window, "Bounces", "5");
+    assert!(window.query_by_label("expected a whole number from 1 to 65536").is_none());
+    assert_eq!(window.state().0.kept.knobs.bounces, 5);
+}
+
+#[test]
+fn enter_in_a_field_starts_the_final_render() {
+    let desk = Desk::new();
+    let mut window = window(&desk);
+    window.state_mut().0.kept.knobs.image = desk.path("window.png").to_string_lossy().into_owned();
+    window.run_steps(1);
+    fill(&mut window, "Samples", "8");
+    press(&mut window, Key::Enter);
+    assert!(window.state().0.is_final());
+    let studio = &mut window.state_mut().0;
+    until(studio, "a file", |studio| studio.session.status().written.is_some());
+    desk.command(&"balls.yaml 48 27 8 8 line.png --accel native".split(' ').collect::<Vec<_>>());
+    assert!(desk.read("window.png") == desk.read("line.png"));
+}
+
+#[test]
+fn escape_leaves_a_field() {
+    let desk = Desk::new();
+    let mut window = window(&desk);
+    window.get_by_role_and_label(Role::TextInput, "Width").click();
+    window.run_steps(2);
+    assert!(window.get_by_role_and_label(Role::TextInput, "Width").is_focused());
+    press(&mut window, Key::Escape);
+    assert!(!window.get_by_role_and_label(Role::TextInput, "Width").is_focused());
+}
+
+#[test]
+fn keys_choose_tools_and_views_but_not_while_a_field_has_the_keyboard() {
+    let desk = Desk::new();
+    let mut window = window(&desk);
+    press(&mut window, Key::F);
+    assert_eq!(window.state().0.tool, Tool::Focus);
+    press(&mut window, Key::Escape);
+    assert_eq!(window.state().0.tool, Tool::Select);
+    press(&mut window, Key::Num3);
+    assert_eq!(window.state().0.view, View::Normals);
+    window.get_by_role_and_label(Role::TextInput, "Width").click();
+    window.run_steps(2);
+    press(&mut window, Key::Num1);
+    assert_eq!(window.state().0.view, View::Normals);
+}
+
+#[test]
+fn the_list_of_keys_opens_and_closes() {
+    let desk = Desk::new();
+    let mut window = window(&desk);
+    press(&mut window, Key::F1);
+    window.get_by_label("F, then click; Ctrl + click");
+    press(&mut window, Key::Escape);
+    assert!(window.query_by_label("F, then click; Ctrl + click").is_none());
+}
+
+#[test]
+fn a_selected_object_shows_its_material_and_a_slider_changes_it() {
+    let desk = Desk::new();
+    let mut window = window(&desk);
+    window.get_by_label("2 Ball: ball").click();
+    window.run_steps(3);
+    assert_eq!(window.state().0.selected, Some(1));
+    window.get_by_label("Coat");
+    let of = |window: &Window<'_>| {
+        let editable = window.state().0.editable.clone().expect("a scene");
+        editable.surfaces[1].clone().expect("a material of its own")
+    };
+    assert_eq!(of(&window).coat, 0.5);
+    window.get_all_by_role(Role::Slider).last().expect("a slider").set_value_accesskit(0.25);
+    window.run_steps(2);
+    assert_eq!(of(&window).specularity, 0.25);
+}
+
+#[test]
+fn errors_of_the_scene_are_shown_with_their_lines() {
+    let desk = Desk::new();
+    let mut window = window(&desk);
+    desk.write("balls.yaml", &super::BALLS.replace("Radius: 1\n", "Radius: -1\n"));
+    until(&mut window.state_mut().0, "errors", |studio| !studio.document.diagnostics.is_empty());
+    window.run_steps(2);
+    window.get_by_label_contains("balls.yaml:22:");
+}
+
+#[test]
+fn the_buttons_preview_pause_and_stop() {
+    let desk = Desk::new();
+    let mut window = window(&desk);
+    window.state_mut().0.kept.knobs.samples = 1 << 20;
+    window.get_by_label("Preview").click();
+    window.run_steps(3);
+    window.get_by_label("Pause").click();
+    window.run_steps(2);
+    assert!(window.state().0.session.is_paused());
+    window.get_by_label("Go on").click();
+    window.run_steps(2);
+    assert!(!window.state().0.session.is_paused());
+    window.get_by_label("Stop").click();
+    window.run_steps(2);
+    assert!(!window.state().0.session.wait().is_busy());
+}
+
+#[test]
+fn an_open_dialog_lists_scenes_and_opens_one() {
+    let desk = Desk::new();
+    desk.write("other.yaml", super::BALLS);
+    let mut window = window(&desk);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::O);
+    window.run_steps(3);
+    window.get_by_label("other.yaml").click();
+    window.run_steps(2);
+    window.get_by_label("Open").click();
+    window.run_steps(2);
+    let path = desk.path("other.yaml");
+    let studio = &mut window.state_mut().0;
+    until(studio, "the other scene", |studio| {
+        studio.document.loaded.as_ref().is_some_and(|loaded| loaded.path.file_name() == path.file_name())
+    });
+}

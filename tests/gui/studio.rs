@@ -1,0 +1,247 @@
+use super::{BALLS, Desk};
+use pathtracer::gui::form::Field;
+use pathtracer::gui::pick::Tool;
+use pathtracer::gui::session::Stage;
+use pathtracer::gui::settings::{Kept, Knobs};
+use pathtracer::gui::studio::Studio;
+use pathtracer::render::{AccelKind, Ended};
+use std::sync::Arc;
+use std::thread;
+use std::time::{Duration, Instant};
+
+/// A window without widgets, with a small picture.
+pub(super) fn studio() -> Studio {
+    let knobs = Knobs {
+        width: 48,
+        height: 27,
+        samples: 16,
+        bounces: 8,
+        accel: AccelKind::Native,
+        ..Knobs::default()
+    };
+    Studio::new(Kept { knobs, ..Kept::default() }, Arc::new(|| {}))
+}
+
+/// Goes on until something holds.
+#[track_caller]
+pub(super) fn until(studio: &mut Studio, what: &str, mut holds: impl FnMut(&mut Studio) -> bool) {
+    let start = Instant::now();
+    loop {
+        studio.update();
+        if holds(studio) {
+            return;
+        }
+        assert!(start.elapsed() < Duration::from_secs(60), "{what}: {:?}", studio.session.status());
+        thread::yield_now();
+    }
+}
+
+/// A scene is open and its preview has ended.
+pub(super) fn opened(desk: &Desk) -> Studio {
+    let mut studio = studio();
+    studio.open(&desk.path("balls.yaml"));
+    until(&mut studio, "a preview", |studio| studio.session.status().stage == Stage::Done(Ended::Complete));
+    studio
+}
+
+fn line_of(studio: &Studio) -> Vec<usize> {
+    studio.document.diagnostics.iter().filter_map(|one| Some(one.location.as_ref()?.line)).collect()
+}
+
+#[test]
+fn a_file_that_changes_is_read_again() {
+    let desk = Desk::new();
+    let mut studio = opened(&desk);
+    let first = studio.session.frame().expect("a picture").job;
+    desk.write("balls.yaml", &BALLS.replace("FocusDistance: 6 ", "FocusDistance: 3.5 "));
+    until(&mut studio, "another preview", |studio| {
+        let status = studio.session.status();
+        status.job > first && status.stage == Stage::Done(Ended::Complete)
+    });
+    assert_eq!(studio.editable.as_ref().expect("a scene").camera.focus_distance, 3.5);
+}
+
+#[test]
+fn a_file_with_errors_shows_their_lines_and_keeps_the_last_good_picture() {
+    let desk = Desk::new();
+    let mut studio = opened(&desk);
+    let before = studio.session.frame().expect("a picture");
+    desk.write("balls.yaml", &BALLS.replace("Radius: 1\n", "Radius: -1\n").replace("Fov: 0.25", "Fov: 45"));
+    until(&mut studio, "errors", |studio| studio.document.diagnostics.len() == 2);
+    assert_eq!(line_of(&studio), [5, 22]);
+    let after = studio.session.frame().expect("still a picture");
+    assert!(Arc::ptr_eq(&before, &after));
+    desk.write("balls.yaml", BALLS);
+    until(&mut studio, "no errors", |studio| studio.document.diagnostics.is_empty());
+}
+
+#[test]
+fn a_file_that_is_missing_is_told() {
+    let desk = Desk::new();
+    let mut studio = studio();
+    studio.open(&desk.path("missing.yaml"));
+    until(&mut studio, "a message", |studio| !studio.document.diagnostics.is_empty());
+    assert!(studio.document.diagnostics[0].message.starts_with("cannot read the scene"));
+}
+
+#[test]
+fn changes_in_the_window_survive_changes_of_the_file_elsewhere() {
+    let desk = Desk::new();
+    let mut studio = opened(&desk);
+    studio.edit(|editable| editable.camera.fov = 0.5);
+    desk.write("balls.yaml", &BALLS.replace("[0.8, 0.1, 0.1]", "[0.1, 0.1, 0.8]"));
+    until(&mut studio, "the new colour", |studio| {
+        let editable = studio.editable.as_ref().expect("a scene");
+        editable.surfaces[1].as_ref().is_some_and(|surface| surface.color.z == 0.8)
+    });
+    assert_eq!(studio.editable.as_ref().expect("a scene").camera.fov, 0.5);
+    assert!(studio.is_edited());
+}
+
+#[test]
+fn a_change_starts_a_preview_that_shows_it() {
+    let desk = Desk::new();
+    let mut studio = opened(&desk);
+    studio.edit(|editable| editable.camera.fov = 0.5);
+    until(&mut studio, "the new view", |studio| {
+        studio.session.frame().is_some_and(|frame| frame.editable.camera.fov == 0.5)
+    });
+}
+
+#[test]
+fn enter_renders_the_file_of_the_command_line() {
+    let desk = Desk::new();
+    let mut studio = opened(&desk);
+    studio.kept.knobs.image = desk.path("window.png").to_string_lossy().into_owned();
+    studio.kept.knobs.exposure = 0.5;
+    studio.kept.knobs.noise = Some(0.2);
+    studio.kept.knobs.samples = 64;
+    studio.render();
+    until(&mut studio, "a file", |studio| studio.session.status().written.is_some());
+    let arguments = "balls.yaml 48 27 64 8 line.png --accel native --exposure 0.5 --noise 0.2";
+    desk.command(&arguments.split(' ').collect::<Vec<_>>());
+    assert!(desk.read("window.png") == desk.read("line.png"));
+    assert!(studio.is_final());
+    assert!(studio.notice.as_ref().is_some_and(|notice| notice.text.ends_with("window.png is written")));
+}
+
+#[test]
+fn the_picture_of_a_final_render_survives_another_size_of_the_window_but_no_change() {
+    let desk = Desk::new();
+    let mut studio = opened(&desk);
+    studio.kept.knobs.image = desk.path("window.png").to_string_lossy().into_owned();
+    studio.render();
+    let job = studio.session.status().job;
+    studio.set_place([30, 20]);
+    until(&mut studio, "a file", |studio| studio.session.status().written.is_some());
+    until(&mut studio, "the new size", |studio| {
+        studio.set_place([30, 20]);
+        !studio.is_settling()
+    });
+    assert_eq!(studio.preview_settings().width, 30);
+    studio.update();
+    assert_eq!(studio.session.status().job, job);
+    studio.edit(|editable| editable.camera.fov = 0.5);
+    studio.update();
+    assert_eq!(studio.session.status().job, job + 1);
+    assert!(!studio.is_final());
+}
+
+#[test]
+fn a_final_render_that_cannot_be_written_says_why() {
+    let desk = Desk::new();
+    let mut studio = opened(&desk);
+    studio.kept.knobs.image = desk.path("picture.gif").to_string_lossy().into_owned();
+    studio.render();
+    until(&mut studio, "a message", |studio| studio.notice.as_ref().is_some_and(|notice| notice.is_error));
+    let text = studio.notice.clone().expect("a message").text;
+    assert!(text.contains("has no known extension"), "{text}");
+}
+
+#[test]
+fn a_wrong_field_stops_the_final_render() {
+    let desk = Desk::new();
+    let mut studio = opened(&desk);
+    let mut camera = studio.editable.as_ref().expect("a scene").camera.clone();
+    studio.form.type_text(Field::Width, "many", &mut studio.kept.knobs, &mut camera);
+    studio.render();
+    let notice = studio.notice.clone().expect("a message");
+    assert_eq!(notice.text, "Width: expected a whole number from 1 to 65536");
+    assert!(!studio.is_final());
+}
+
+#[test]
+fn closing_during_a_final_render_writes_its_picture_so_far() {
+    let desk = Desk::new();
+    let mut studio = opened(&desk);
+    studio.kept.knobs.image = desk.path("window.png").to_string_lossy().into_owned();
+    studio.kept.knobs.samples = 1 << 20;
+    studio.render();
+    studio.session.wait_for(2);
+    studio.close();
+    let samples = studio.session.frame().expect("a picture").samples;
+    let arguments = format!("balls.yaml 48 27 {samples} 8 line.png --accel native");
+    desk.command(&arguments.split(' ').collect::<Vec<_>>());
+    assert!(desk.read("window.png") == desk.read("line.png"));
+}
+
+#[test]
+fn a_saved_scene_is_the_file_and_no_longer_edited() {
+    let desk = Desk::new();
+    let mut studio = opened(&desk);
+    studio.edit(|editable| editable.camera.focus_distance = 5.5);
+    assert!(studio.is_edited());
+    studio.save_scene(None);
+    assert!(!studio.is_edited());
+    let expected = BALLS.replace("FocusDistance: 6 ", "FocusDistance: 5.5 ");
+    assert_eq!(String::from_utf8(desk.read("balls.yaml")).expect("UTF-8"), expected);
+    studio.edit(|editable| editable.camera.focus_distance = 6.0);
+    studio.save_scene(Some(&desk.path("other.yaml")));
+    assert_eq!(String::from_utf8(desk.read("other.yaml")).expect("UTF-8"), BALLS);
+    assert_eq!(studio.document.path, Some(desk.path("other.yaml")));
+}
+
+#[test]
+fn changes_are_undone_and_done_again() {
+    let desk = Desk::new();
+    let mut studio = opened(&desk);
+    studio.edit(|editable| editable.camera.fov = 0.5);
+    studio.undo(true);
+    assert!(!studio.is_edited());
+    studio.undo(false);
+    assert_eq!(studio.editable.as_ref().expect("a scene").camera.fov, 0.5);
+    studio.reset_camera();
+    assert!(!studio.is_edited());
+}
+
+#[test]
+fn a_click_selects_focuses_and_looks() {
+    let desk = Desk::new();
+    let mut studio = opened(&desk);
+    let frame = studio.session.frame().expect("a picture");
+    studio.click(Arc::clone(&frame), [24.0, 13.5], Tool::Select);
+    until(&mut studio, "a selection", |studio| studio.selected == Some(1));
+    studio.click(Arc::clone(&frame), [24.0, 13.5], Tool::Focus);
+    until(&mut studio, "a focus", |studio| studio.is_edited());
+    let distance = studio.editable.as_ref().expect("a scene").camera.focus_distance;
+    assert!((distance - (37.0f64.sqrt() - 1.0)).abs() < 1e-12, "{distance}");
+    studio.click(frame, [24.0, 0.5], Tool::LookAt);
+    until(&mut studio, "a message", |studio| studio.notice.is_some());
+    assert_eq!(studio.notice.clone().expect("a message").text, "there is only sky");
+}
+
+#[test]
+fn a_saved_preview_is_the_picture_of_the_command_line() {
+    let desk = Desk::new();
+    let mut studio = opened(&desk);
+    studio.edit(|editable| editable.camera.fov = 0.5);
+    until(&mut studio, "the new view", |studio| {
+        let is_new = studio.session.frame().is_some_and(|frame| frame.editable.camera.fov == 0.5);
+        is_new && studio.session.status().stage == Stage::Done(Ended::Complete)
+    });
+    studio.save_picture(&desk.path("window.exr"));
+    until(&mut studio, "a file", |studio| studio.notice.is_some());
+    studio.save_scene(None);
+    desk.command(&"balls.yaml 48 27 16 8 line.exr --accel native".split(' ').collect::<Vec<_>>());
+    assert!(desk.read("window.exr") == desk.read("line.exr"));
+}

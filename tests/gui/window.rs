@@ -1,0 +1,168 @@
+//! The real window on a virtual display, driven by mouse and keys. Where they are is asked of the same widgets without a
+//! display.
+
+use super::Desk;
+use super::panels::{Window, window};
+use eframe::egui::Pos2;
+use eframe::egui::accesskit::Role;
+use egui_kittest::kittest::Queryable;
+use serde_json::json;
+use std::fs;
+use std::io::{BufRead, BufReader};
+use std::process::{Child, Command, ExitStatus, Stdio};
+use std::thread;
+use std::time::{Duration, Instant};
+
+/// How long is waited for anything.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// Waits for something that another process does.
+#[track_caller]
+fn wait_for<T>(what: &str, mut look: impl FnMut() -> Option<T>) -> T {
+    let start = Instant::now();
+    loop {
+        if let Some(found) = look() {
+            return found;
+        }
+        assert!(start.elapsed() < PATIENCE, "waited in vain for {what}");
+        thread::sleep(Duration::from_millis(20));
+    }
+}
+
+/// A virtual display with the program's window on it.
+struct Screen {
+    server: Child,
+    program: Child,
+    display: String,
+    window: String,
+}
+
+impl Screen {
+    /// Opens the window on a scene; `None`, with the reason printed, where the tools are missing.
+    fn open(desk: &Desk, arguments: &[&str], samples: u64) -> Option<Screen> {
+        for tool in ["Xvfb", "xdotool"] {
+            if Command::new("which").arg(tool).output().is_ok_and(|output| !output.status.success()) {
+                println!("skipped: this machine has no {tool} (Debian: xvfb, xdotool, libgl1-mesa-dri)");
+                return None;
+            }
+        }
+        let mut server = Command::new("Xvfb")
+            .args(["-displayfd", "1", "-screen", "0", "1280x800x24", "-nolisten", "tcp"])
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("Xvfb starts");
+        let mut number = String::new();
+        BufReader::new(server.stdout.take().expect("a pipe")).read_line(&mut number).expect("a display's number");
+        let display = format!(":{}", number.trim());
+        let kept = json!({
+            "width": 160, "height": 90, "samples": samples, "bounces": 8, "accelerator": "native",
+            "window": [1280, 800],
+        });
+        fs::create_dir_all(desk.path("config/pathtracer")).expect("a folder");
+        desk.write("config/pathtracer/window.json", &kept.to_string());
+        let program = Command::new(env!("CARGO_BIN_EXE_pathtracer"))
+            .args(arguments)
+            .current_dir(desk.folder.path())
+            .env("DISPLAY", &display)
+            .env_remove("WAYLAND_DISPLAY")
+            .env("XDG_CONFIG_HOME", desk.path("config"))
+            .env("LIBGL_ALWAYS_SOFTWARE", "1")
+            .spawn()
+            .expect("the program starts");
+        let mut screen = Screen { server, program, display, window: String::new() };
+        screen.window = wait_for("the window", || {
+            let found = screen.tell(&["search", "--onlyvisible", "--name", "balls.yaml"]);
+            found.lines().next().map(str::to_owned)
+        });
+        screen.tell(&["windowfocus", "--sync", &screen.window.clone()]);
+        Some(screen)
+    }
+
+    /// Runs xdotool; what it says.
+    fn tell(&self, arguments: &[&str]) -> String {
+        let output = Command::new("xdotool").args(arguments).env("DISPLAY", &self.display).output();
+        String::from_utf8(output.expect("xdotool starts").stdout).expect("UTF-8")
+    }
+
+    fn key(&self, key: &str) {
+        self.tell(&["key", "--clearmodifiers", key]);
+    }
+
+    fn click(&self, at: Pos2) {
+        let [x, y] = [at.x, at.y].map(|place| place.round().to_string());
+        self.tell(&["mousemove", "--sync", &x, &y]);
+        // A frame with the mouse there comes before the click.
+        thread::sleep(Duration::from_millis(100));
+        self.tell(&["click", "1"]);
+        thread::sleep(Duration::from_millis(100));
+    }
+
+    /// Closes the window; how the program ended.
+    fn close(&mut self) -> ExitStatus {
+        self.key("ctrl+q");
+        wait_for("the end of the program", || self.program.try_wait().expect("a child"))
+    }
+}
+
+impl Drop for Screen {
+    fn drop(&mut self) {
+        // What has ended already can't be ended.
+        let _ = self.program.kill();
+        let _ = self.program.wait();
+        let _ = self.server.kill();
+        let _ = self.server.wait();
+    }
+}
+
+fn field(window: &Window<'_>, label: &str) -> Pos2 {
+    window.get_by_role_and_label(Role::TextInput, label).rect().center()
+}
+
+#[test]
+fn a_scene_is_changed_focused_rendered_and_saved_as_by_the_command_line() {
+    let desk = Desk::new();
+    let Some(mut screen) = Screen::open(&desk, &["gui", "balls.yaml"], 16) else { return };
+    let widgets = window(&desk);
+    screen.click(field(&widgets, "Field of view (°)"));
+    screen.key("ctrl+a");
+    screen.tell(&["type", "60"]);
+    screen.key("Escape");
+    screen.key("f");
+    screen.click(widgets.state().1.canvas.place.expect("a place").center());
+    let before = desk.read("balls.yaml");
+    wait_for("a saved scene that is in focus", || {
+        screen.key("ctrl+s");
+        let text = String::from_utf8(desk.read("balls.yaml")).expect("UTF-8");
+        (text.as_bytes() != before && !text.contains("FocusDistance: 6 ")).then_some(())
+    });
+    let text = String::from_utf8(desk.read("balls.yaml")).expect("UTF-8");
+    assert!(text.contains("Fov: 0.3333333333333333\n"), "{text}");
+    // The middle of the picture shows the ball, which is nearer than its centre by its radius.
+    let focus = text.lines().find(|line| line.contains("FocusDistance:")).expect("a focus distance");
+    assert!(focus.starts_with("  FocusDistance: 5.08") && focus.ends_with("# the ball"), "{focus}");
+    screen.key("Return");
+    wait_for("the picture", || fs::exists(desk.path("balls.png")).expect("a folder").then_some(()));
+    assert_eq!(screen.close().code(), Some(0));
+    let arguments = "balls.yaml 160 90 16 8 line.png --accel native";
+    desk.command(&arguments.split(' ').collect::<Vec<_>>());
+    assert!(desk.read("balls.png") == desk.read("line.png"));
+    let kept = String::from_utf8(desk.read("config/pathtracer/window.json")).expect("UTF-8");
+    assert!(kept.contains("balls.yaml"), "{kept}");
+}
+
+#[test]
+fn closing_the_window_during_a_render_writes_its_picture_and_leaves_no_process() {
+    let desk = Desk::new();
+    let Some(mut screen) = Screen::open(&desk, &["balls.yaml"], 1 << 30) else { return };
+    screen.key("Return");
+    // Without a picture yet, closing would have nothing to write.
+    thread::sleep(Duration::from_millis(500));
+    assert_eq!(screen.close().code(), Some(0));
+    let info = desk.command(&["info", "balls.png"]);
+    let info = String::from_utf8(info.stdout).expect("UTF-8");
+    let written = info.lines().find(|line| line.contains("samplesPerPixel")).expect("a number of samples");
+    let samples = written.rsplit(' ').next().expect("a number");
+    desk.command(&["balls.yaml", "160", "90", samples, "8", "line.png", "--accel", "native"]);
+    assert!(desk.read("balls.png") == desk.read("line.png"), "{samples} samples");
+}
