@@ -11,13 +11,17 @@ mod console;
 mod describe;
 mod diff;
 mod event;
+mod farm;
 mod file;
 mod findings;
 mod info;
 mod interrupt;
+mod keeper;
+mod merge;
 mod plot_file;
 mod progress;
 mod render;
+mod saving;
 mod scaling;
 mod target;
 mod tradeoff;
@@ -36,6 +40,8 @@ pub fn run(arguments: &[OsString]) -> anyhow::Result<u8> {
         Some(Command::Bench(arguments)) => bench::run(&arguments.resolve()?),
         Some(Command::Tradeoff(arguments)) => tradeoff::run(&arguments.resolve()?),
         Some(Command::Diff(arguments)) => diff::run(&arguments),
+        Some(Command::Merge(arguments)) => merge::run(&arguments),
+        Some(Command::Farm(command)) => farm::run(command),
         Some(Command::Info { picture }) => info::run(&picture),
         None => render::run(&render.resolve()?),
     }
@@ -53,6 +59,9 @@ pub fn report(error: &anyhow::Error, arguments: &[OsString]) -> u8 {
     let code = exit_code(error);
     if arguments.iter().any(|argument| argument == "--json") {
         event::emit(&Event::error(code, error));
+    }
+    if arguments.windows(2).any(|words| words[0] == "--progress" && words[1] == "openjd") {
+        progress::openjd("fail", &error.to_string());
     }
     match (error.downcast_ref::<clap::Error>(), error.downcast_ref::<Error>()) {
         (Some(error), _) => drop(error.print()),

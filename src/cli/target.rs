@@ -5,7 +5,7 @@ use crate::error::{Error, Result};
 use crate::output::{self, Provenance};
 use crate::picture::{Denoiser, Depth, Destination, Format, Metadata, Noisy, Value};
 use crate::render::{Rendered, in_pool};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The places of the pictures, found to be writable, and what makes them.
 pub(super) struct Target {
@@ -28,6 +28,12 @@ impl Target {
             None
         };
         Ok(Target { picture, denoised })
+    }
+
+    /// The files that hold pictures until they are complete.
+    pub(super) fn partial_paths(&self) -> Vec<PathBuf> {
+        let noisy = self.denoised.as_ref().map(|(noisy, _)| noisy);
+        [&self.picture].into_iter().chain(noisy).map(|place| place.partial_path().to_path_buf()).collect()
     }
 
     /// Whether one of the pictures goes to the same file.
@@ -62,7 +68,7 @@ fn place(path: &Path, depth: Option<Depth>) -> Result<Destination> {
 }
 
 /// `a.png` becomes `a.noisy.png`.
-fn noisy_path(path: &Path) -> std::path::PathBuf {
+fn noisy_path(path: &Path) -> PathBuf {
     let extension = path.extension().unwrap_or_default().to_string_lossy();
     path.with_extension(format!("noisy.{extension}"))
 }

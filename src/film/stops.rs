@@ -48,6 +48,11 @@ impl Film {
         self.stops = Some(stops);
     }
 
+    /// After how many samples the halves of every block stopped, row by row, where blocks stop.
+    pub fn stopped(&self) -> Option<&[[u64; HALVES]]> {
+        self.stops.as_ref().map(|stops| stops.halves.as_slice())
+    }
+
     /// Samples of each scramble in a pixel of a film with blocks.
     pub(super) fn stopped_counts(&self, pixel: usize) -> Option<[u64; SCRAMBLES]> {
         self.stops.as_ref().map(|stops| stops.counts(pixel, self.width as usize))

@@ -15,15 +15,18 @@ pub fn film_bytes(settings: &Settings) -> u64 {
     let chunk = u64::from(settings.chunk.max(1));
     let samples = if settings.samples == 0 { 1 << 16 } else { settings.samples };
     let radiance = size_of::<Rgb>() as u64;
-    let bytes = |samples: u64| match Layout::new(settings, 0..samples.max(1)) {
+    let only = |samples: u64| settings.scrambles().only(0..samples.max(1)).is_some();
+    let bytes = |samples: u64| match Layout::new(settings, 0) {
+        Layout::Plain(_) if !only(samples) => radiance + (size_of::<f32>() * SCRAMBLES) as u64,
         Layout::Plain(_) => radiance + size_of::<f32>() as u64,
         Layout::Scrambled => radiance + (size_of::<f32>() * SCRAMBLES) as u64,
         Layout::Halved => 2 * radiance + (size_of::<f32>() * SCRAMBLES) as u64,
     };
     let nodes = Film::most_nodes(samples.div_ceil(chunk));
-    let film: u64 = (0..nodes).map(|node| bytes(chunk.saturating_mul(1 << node).min(samples))).sum();
+    let film: u64 =
+        (0..nodes).map(|node| bytes(chunk.saturating_mul(1 << node).min(samples.max(chunk)))).sum();
     // Beside it the chunk under way and its last complete pass, and what blocks know of themselves; afterwards the encoded picture (24 bytes a pixel for EXR).
-    let under_way = Layout::new(settings, 0..chunk).stride() * size_of::<f64>();
+    let under_way = Layout::new(settings, 0).stride() * size_of::<f64>();
     let planes = if settings.noise.is_some() { 3 } else { 2 };
     pixels.saturating_mul(film + (planes * under_way) as u64)
 }
