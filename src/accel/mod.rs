@@ -100,6 +100,8 @@ pub struct BuildOptions {
     pub isa: Option<Isa>,
     /// How the tree is built.
     pub quality: BvhQuality,
+    /// The most bytes that Embree may take, or `None` for what the machine has.
+    pub memory: Option<u64>,
     /// What is to be broken, for the tests of the tests; nothing is by default.
     #[doc(hidden)]
     pub fault: Option<Fault>,

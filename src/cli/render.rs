@@ -13,7 +13,7 @@ use crate::film::PictureError;
 use crate::film::file::FilePlace;
 use crate::output::{self, Provenance};
 use crate::picture::{Destination, Format};
-use crate::render::{Ended, Origin, Recipe, Rendered, View, in_pool, resume};
+use crate::render::{Ended, Estimate, Origin, Recipe, Rendered, View, in_pool, resume};
 use crate::scene;
 use crate::world::World;
 use std::path::{Path, PathBuf};
@@ -87,6 +87,7 @@ pub(super) fn run(job: &Job) -> anyhow::Result<u8> {
         scene.warnings.iter().for_each(say);
         say(describe::scene(&scene.desc));
     }
+    Estimate::new(&scene.desc, &job.settings, job.denoise).check()?;
     let (world, compile) = timed(|| in_pool(&job.settings, || World::compile(&scene.desc)));
     let world = world?;
     let guards = in_pool(&job.settings, || world.guards(&scene.desc, job.settings.width))?;

@@ -6,8 +6,8 @@ use crate::error::{Error, Result};
 use crate::film::Film;
 use crate::integrator::Features;
 use crate::math::Rgb;
+use crate::memory::available_bytes;
 use crate::sampling::SCRAMBLES;
-use std::fs;
 
 /// The most bytes that the film and its picture take at once. Without a limit of samples, 65,536 are reckoned with.
 pub fn film_bytes(settings: &Settings) -> u64 {
@@ -79,12 +79,4 @@ fn too_large(settings: &Settings, available: Option<u64>) -> Error {
 
 fn gigabytes(bytes: u64) -> String {
     format!("{:.1}", bytes as f64 / 1e9)
-}
-
-/// `MemAvailable` of Linux, in bytes.
-pub(crate) fn available_bytes() -> Option<u64> {
-    let text = fs::read_to_string("/proc/meminfo").ok()?;
-    let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
-    let kilobytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
-    kilobytes.checked_mul(1024)
 }
