@@ -104,7 +104,7 @@ pub(super) fn run(job: &Job) -> anyhow::Result<u8> {
     if let (Some(place), None) = (output.part(), &job.resume) {
         match saving::existing_part(job, place, &origin) {
             Found::Nothing => {}
-            Found::Begun(begun) => state = Some(begun),
+            Found::Begun(begun) => state = Some(*begun),
             Found::Done => {
                 say(format_args!("{} is there already, and complete", job.image.display()));
                 return Ok(0);

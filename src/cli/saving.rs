@@ -60,7 +60,7 @@ pub(super) enum Found {
     /// All of it.
     Done,
     /// A checkpoint of it.
-    Begun(State),
+    Begun(Box<State>),
 }
 
 /// Looks for the part, or for what an interrupted task left of it.
@@ -70,7 +70,8 @@ pub(super) fn existing_part(job: &Job, place: &FilePlace, origin: &Origin) -> Fo
     }
     let begun = FilmFile::open(place.path()).and_then(|file| {
         if file.kind() == FileKind::Checkpoint {
-            return file.state(&job.settings, &origin.recipe).map(Found::Begun);
+            let state = file.state(&job.settings, &origin.recipe)?;
+            return Ok(Found::Begun(Box::new(state)));
         }
         let differences = file.origin().recipe.differences(&origin.recipe, &OF_A_TASK);
         match differences.is_empty() {
