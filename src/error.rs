@@ -127,6 +127,8 @@ pub enum Error {
     Accelerator(String),
     /// The picture could not be encoded.
     Picture(String),
+    /// A checkpoint or a part of a picture can't be used: which, and why.
+    Film(String),
     /// The user stopped the render.
     Interrupted,
     /// A bug in this program, met and contained.
@@ -148,7 +150,8 @@ impl fmt::Display for Error {
             Error::Usage(message)
             | Error::Unavailable(message)
             | Error::Accelerator(message)
-            | Error::Picture(message) => write!(f, "{message}"),
+            | Error::Picture(message)
+            | Error::Film(message) => write!(f, "{message}"),
             Error::Io { action, path, source } => write!(f, "cannot {action} {}: {source}", path.display()),
             Error::Interrupted => write!(f, "interrupted"),
             Error::Internal(message) => write!(f, "a bug in this program: {message}"),
@@ -176,6 +179,7 @@ impl Error {
             | Error::Io { .. }
             | Error::Accelerator(_)
             | Error::Picture(_)
+            | Error::Film(_)
             | Error::Internal(_) => 1,
         }
     }

@@ -74,6 +74,12 @@ mod errors;
 /// What is counted about the samples: fireflies, the limit and what it takes.
 mod counters;
 
+/// Random valid scenes and settings, for as long as one likes.
+mod soak;
+
+/// What a file of sums may hold, and the memory of a render.
+mod keeping;
+
 /// Measuring: accelerators, rays, meshes, errors of pictures, trade-offs, growth; tables, plots, pages.
 mod study;
 

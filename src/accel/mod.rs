@@ -16,9 +16,11 @@ pub use fault::Fault;
 use crate::error::Result;
 use crate::geometry::{Geometry, Hit, LocalRay, Nearest, PrimitiveId, Ray, Shape, TriangleHit};
 use bvh::Instructions;
+use serde::{Deserialize, Serialize};
 
 /// How hits of mesh triangles are found. Solids are exact at every precision.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Precision {
     /// The shared leaf decides: watertight, the same bits from every accelerator. The default, as it costs whole renders
     /// next to nothing.
@@ -31,7 +33,8 @@ pub enum Precision {
 }
 
 /// An upper limit on the instructions used; the machine's best when `None` is given instead.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Isa {
     /// SSE2, which every x86-64 machine has.
     Sse2,
@@ -43,7 +46,8 @@ pub enum Isa {
 
 /// How much time goes into the native tree, and into the trees of Embree's own triangles. It does not change hits, but
 /// which of Embree's hits of equal distance at [`Precision::Robust`] and [`Precision::Fast`].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum BvhQuality {
     /// Built soonest, for a look.
     Fast,
@@ -96,6 +100,8 @@ pub struct BuildOptions {
     pub isa: Option<Isa>,
     /// How the tree is built.
     pub quality: BvhQuality,
+    /// The most bytes that Embree may take, or `None` for what the machine has.
+    pub memory: Option<u64>,
     /// What is to be broken, for the tests of the tests; nothing is by default.
     #[doc(hidden)]
     pub fault: Option<Fault>,

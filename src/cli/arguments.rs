@@ -3,17 +3,22 @@
 mod bench;
 mod compare;
 mod diff;
+mod farm;
+mod merge;
 mod tradeoff;
 mod values;
 
 pub(super) use bench::{BenchArguments, BenchJob, Subject};
 pub(super) use compare::{CompareArguments, CompareJob};
 pub(super) use diff::DiffArguments;
+pub(super) use farm::{FarmArguments, FarmCommand};
+pub(super) use merge::MergeArguments;
 pub(super) use tradeoff::{TradeoffArguments, TradeoffJob};
 pub(super) use values::{ACCELS, BVHS, ISAS, PRECISIONS, name_of};
 
 use crate::accel::{BvhQuality, Isa, Precision};
 use crate::error::Error;
+use crate::film::Region;
 use crate::output::{Aov, Wanted};
 use crate::picture::Depth;
 use crate::render::{
@@ -25,7 +30,9 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 use std::time::Duration;
-use values::{AOVS, DEPTHS, SAMPLERS, SWITCH, choice, positive, stops, time, whole, whole_or_none};
+use values::{
+    AOVS, DEPTHS, SAMPLERS, SWITCH, choice, chunks, crop, part, positive, stops, time, whole, whole_or_none,
+};
 
 /// The positional arguments of a render, as messages name them.
 const POSITIONALS: [&str; 6] = ["SCENE", "WIDTH", "HEIGHT", "SAMPLES", "BOUNCES", "IMAGE"];
@@ -49,7 +56,9 @@ static VERSION: LazyLock<String> = LazyLock::new(|| {
                       pathtracer bench [OPTIONS] [SCENE | OBJ]\n       \
                       pathtracer tradeoff [OPTIONS] SCENE\n       \
                       pathtracer diff [OPTIONS] PICTURE REFERENCE\n       \
-                      pathtracer info PICTURE",
+                      pathtracer info PICTURE\n       \
+                      pathtracer merge [OPTIONS] PART... IMAGE\n       \
+                      pathtracer farm export|slurm --parts N [OPTIONS] SCENE WIDTH HEIGHT SAMPLES BOUNCES IMAGE",
     args_conflicts_with_subcommands = true,
     disable_help_subcommand = true
 )]
@@ -88,6 +97,11 @@ pub(super) enum Command {
     Tradeoff(Box<TradeoffArguments>),
     /// Say how far a picture is from another one
     Diff(DiffArguments),
+    /// Make a picture of the parts of a render
+    Merge(MergeArguments),
+    /// Print a render in parts as a job for a render farm
+    #[command(subcommand)]
+    Farm(FarmCommand),
     /// Say how a picture was made, and the command that makes it again
     #[command(override_usage = "pathtracer info PICTURE")]
     Info {
@@ -169,6 +183,24 @@ pub(super) struct RenderArguments {
     /// more time [default: on]
     #[arg(long, value_name = "on|off", value_parser = choice(&SWITCH))]
     error_estimate: Option<bool>,
+    /// Keep what it takes to go on with the render in this file
+    #[arg(long, value_name = "FILE")]
+    checkpoint: Option<PathBuf>,
+    /// How often it is written, such as 60, 500ms or 5m, at the next end of a pass
+    #[arg(long, value_name = "T", default_value = "60s", allow_negative_numbers = true, value_parser = time)]
+    every: Duration,
+    /// Go on with the render of a checkpoint; with the same file in --checkpoint, begin where there is none
+    #[arg(long, value_name = "FILE")]
+    resume: Option<PathBuf>,
+    /// Render every Nth block of 16 x 16 pixels from block I (0 to N - 1) on, into a part file, IMAGE.film
+    #[arg(long, value_name = "I/N", value_parser = part, conflicts_with = "crop")]
+    part: Option<Region>,
+    /// Render only the pixels of these columns and rows, without the last ones, from the top left, into a part file
+    #[arg(long, value_name = "X0,Y0,X1,Y1", value_parser = crop)]
+    crop: Option<Region>,
+    /// Render only these chunks of 16 samples, without the last one, into a part file
+    #[arg(long, value_name = "A..B", value_parser = chunks)]
+    chunks: Option<[u64; 2]>,
     /// Brightness of a picture that is not linear in stops, -100 to 100
     #[arg(long, value_name = "STOPS", allow_negative_numbers = true, default_value = "0", value_parser = stops)]
     exposure: f64,
@@ -192,6 +224,9 @@ pub(super) struct RenderArguments {
     /// Print events as JSON lines on stdout
     #[arg(long)]
     json: bool,
+    /// Print the progress on stdout as Open Job Description has it: openjd
+    #[arg(long, value_name = "FORM", value_parser = ["openjd"], conflicts_with = "json")]
+    progress: Option<String>,
 }
 
 /// A render as it was meant.
@@ -202,6 +237,12 @@ pub(super) struct Job {
     /// Where the errors of the pixels go.
     pub(super) error_bars: Option<PathBuf>,
     pub(super) settings: Settings,
+    /// Where checkpoints go.
+    pub(super) checkpoint: Option<PathBuf>,
+    /// How often.
+    pub(super) every: Duration,
+    /// The checkpoint to go on from.
+    pub(super) resume: Option<PathBuf>,
     /// In stops.
     pub(super) exposure: f64,
     pub(super) depth: Option<Depth>,
@@ -213,6 +254,8 @@ pub(super) struct Job {
     pub(super) stamp: bool,
     pub(super) quiet: bool,
     pub(super) json: bool,
+    /// Whether progress is printed as Open Job Description has it.
+    pub(super) openjd: bool,
 }
 
 impl Job {
@@ -286,10 +329,29 @@ impl RenderArguments {
             noise: self.noise,
             time: self.time,
             features: self.denoise || self.aov.iter().any(|aov| matches!(aov, Aov::Feature(_))),
+            region: self.part.or(self.crop).unwrap_or_default(),
+            chunks: self.chunks.map(|[start, end]| start..end),
             ..defaults
         };
         let RenderArguments { exposure, depth, aov, denoise, stamp, quiet, json, error_bars, .. } = self;
-        Ok(Job { scene, image, error_bars, settings, exposure, depth, aov, denoise, stamp, quiet, json })
+        let RenderArguments { checkpoint, every, resume, progress, .. } = self;
+        Ok(Job {
+            scene,
+            image,
+            error_bars,
+            settings,
+            checkpoint,
+            every,
+            resume,
+            exposure,
+            depth,
+            aov,
+            denoise,
+            stamp,
+            quiet,
+            json,
+            openjd: progress.is_some(),
+        })
     }
 
     /// The scene, if it is the only positional argument.

@@ -12,15 +12,15 @@ use std::thread;
 /// The first signal that came; zero before.
 static FIRST: AtomicI32 = AtomicI32::new(0);
 
-/// From now on [`exit_code`] tells whether a signal has come. The second one removes `partial`, a picture that may be
-/// half written, and ends the program at once.
-pub(super) fn listen(partial: PathBuf) -> io::Result<()> {
+/// From now on [`exit_code`] tells whether a signal has come. The second one removes `partial`, files that may be half
+/// written, and ends the program at once.
+pub(super) fn listen(partial: Vec<PathBuf>) -> io::Result<()> {
     let mut signals = Signals::new([SIGINT, SIGTERM])?;
     thread::Builder::new().name("signals".into()).spawn(move || {
         for signal in signals.forever() {
             if FIRST.compare_exchange(0, signal, Ordering::Relaxed, Ordering::Relaxed).is_err() {
                 // There may be none.
-                let _ = fs::remove_file(&partial);
+                partial.iter().for_each(|path| drop(fs::remove_file(path)));
                 // Not `std::process::exit`, which would pull down libraries under the threads that use them.
                 low_level::exit(128 + signal);
             }

@@ -11,13 +11,17 @@ pub(crate) mod console;
 mod describe;
 mod diff;
 mod event;
+mod farm;
 mod file;
 mod findings;
 mod info;
 mod interrupt;
+mod keeper;
+mod merge;
 mod plot_file;
 mod progress;
 mod render;
+mod saving;
 mod scaling;
 mod tradeoff;
 
@@ -40,6 +44,8 @@ pub fn run(arguments: &[OsString], window: &Window) -> anyhow::Result<u8> {
         Some(Command::Bench(arguments)) => bench::run(&arguments.resolve()?),
         Some(Command::Tradeoff(arguments)) => tradeoff::run(&arguments.resolve()?),
         Some(Command::Diff(arguments)) => diff::run(&arguments),
+        Some(Command::Merge(arguments)) => merge::run(&arguments),
+        Some(Command::Farm(command)) => farm::run(command),
         Some(Command::Info { picture }) => info::run(&picture),
         None if arguments.len() == 1 => open(window, None),
         None => match (arguments, render.only_scene()) {
@@ -69,6 +75,9 @@ pub fn report(error: &anyhow::Error, arguments: &[OsString]) -> u8 {
     let code = exit_code(error);
     if arguments.iter().any(|argument| argument == "--json") {
         event::emit(&Event::error(code, error));
+    }
+    if arguments.windows(2).any(|words| words[0] == "--progress" && words[1] == "openjd") {
+        progress::openjd("fail", &error.to_string());
     }
     match (error.downcast_ref::<clap::Error>(), error.downcast_ref::<Error>()) {
         (Some(error), _) => drop(error.print()),

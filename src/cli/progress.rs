@@ -7,7 +7,7 @@ use super::interrupt;
 use crate::render::{Progress, Watch};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::env;
-use std::io::{self, IsTerminal};
+use std::io::{self, IsTerminal, Write};
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
@@ -23,6 +23,8 @@ pub(super) struct Reporter {
     bar: Option<(ProgressBar, Pace)>,
     lines: Option<Pace>,
     events: Option<Pace>,
+    /// Lines for Open Job Description.
+    openjd: Option<Pace>,
     /// Whether the number of samples is limited.
     limited: bool,
 }
@@ -35,7 +37,8 @@ impl Reporter {
         let bar = (!job.quiet && is_smart).then(|| (new_bar(), Pace::new(REDRAW, start)));
         let lines = (!job.quiet && !is_smart).then(|| Pace::new(EVERY_LINE, start));
         let events = job.json.then(|| Pace::new(EVERY_EVENT, start));
-        Reporter { start, bar, lines, events, limited: job.settings.samples > 0 }
+        let openjd = job.openjd.then(|| Pace::new(EVERY_EVENT, start));
+        Reporter { start, bar, lines, events, openjd, limited: job.settings.samples > 0 }
     }
 
     /// Takes the bar away.
@@ -62,11 +65,23 @@ impl Watch for Reporter {
         if self.events.as_ref().is_some_and(Pace::is_due) {
             event::emit(&Event::progress(progress, elapsed, self.limited));
         }
+        if self.openjd.as_ref().is_some_and(Pace::is_due) {
+            openjd("progress", &format!("{:.1}", 100.0 * share(progress, elapsed)));
+            openjd("status", &line(progress, elapsed));
+        }
     }
 
     fn cancelled(&self) -> bool {
         interrupt::exit_code().is_some()
     }
+}
+
+/// Prints a line that a session of Open Job Description understands.
+pub(super) fn openjd(kind: &str, text: &str) {
+    let text = text.replace(['\n', '\r'], " ");
+    let mut stdout = io::stdout().lock();
+    // A reader that has gone away does not stop the render.
+    let _ = writeln!(stdout, "openjd_{kind}: {text}").and_then(|()| stdout.flush());
 }
 
 fn new_bar() -> ProgressBar {

@@ -3,34 +3,82 @@
 use super::arguments::Job;
 use super::console::{digits, duration, say, with_prefix};
 use super::event::{self, Event, JobRecord, Seconds, Summary, per_second};
+use super::keeper::Keeper;
 use super::progress::Reporter;
+use super::saving::{self, Found};
 use super::{describe, findings, interrupt};
 use crate::error::{Error, Result};
 use crate::film::PictureError;
+use crate::film::file::FilePlace;
 use crate::output::{self, Aov, Provenance, Target};
 use crate::picture::{Destination, Format};
-use crate::render::{Ended, Rendered, in_pool, render};
+use crate::render::{Ended, Estimate, Origin, Recipe, Rendered, View, in_pool, resume};
 use crate::scene;
 use crate::world::World;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// The exit code of a picture that is noisier than asked for because the time was up.
 const NOISE_MISSED: u8 = 5;
 
+/// Where the result goes.
+enum Output {
+    /// A picture, and the errors of its pixels.
+    Picture(Box<Target>, Option<Destination>),
+    /// A part of one.
+    Part(FilePlace),
+}
+
+impl Output {
+    /// Whatever can be known to fail fails here.
+    fn new(job: &Job) -> Result<Output> {
+        if saving::is_part(job) {
+            return saving::part_place(job).map(Output::Part);
+        }
+        let target = Target::new(job.wanted())?;
+        let error_bars = job.error_bars.as_deref().map(error_bars).transpose()?;
+        if error_bars.as_ref().is_some_and(|bars| target.holds(bars)) {
+            return Err(Error::Usage("--error-bars needs a file of its own, beside the picture's".into()));
+        }
+        Ok(Output::Picture(Box::new(target), error_bars))
+    }
+
+    /// Files that may be half written while the program runs.
+    fn partial_paths(&self) -> Vec<PathBuf> {
+        match self {
+            Output::Picture(target, bars) => {
+                let bars = bars.iter().map(|bars| bars.partial_path().to_path_buf());
+                target.partial_paths().into_iter().chain(bars).collect()
+            }
+            Output::Part(place) => vec![place.partial_path().to_path_buf()],
+        }
+    }
+
+    fn part(&self) -> Option<&FilePlace> {
+        match self {
+            Output::Part(place) => Some(place),
+            Output::Picture(..) => None,
+        }
+    }
+
+    /// Writes what was rendered.
+    fn write(&self, job: &Job, origin: &Origin, rendered: &Rendered) -> Result<()> {
+        match self {
+            Output::Part(place) => rendered.write_part(place, origin),
+            Output::Picture(target, bars) => write_picture(target, bars.as_ref(), job, origin, rendered),
+        }
+    }
+}
+
 /// Renders; returns the exit code.
 pub(super) fn run(job: &Job) -> anyhow::Result<u8> {
     // Whatever can be known to fail fails before the work.
     job.settings.check()?;
-    let target = Target::new(job.wanted())?;
-    let destination = target.picture();
-    let error_bars = job.error_bars.as_deref().map(error_bars).transpose()?;
-    if let Some(bars) = &error_bars
-        && target.holds(bars)
-    {
-        return Err(Error::Usage("--error-bars needs a file of its own, beside the picture's".into()).into());
-    }
-    interrupt::listen(destination.partial_path().to_path_buf())?;
+    let output = Output::new(job)?;
+    let checkpoints = saving::checkpoint_place(job, output.part())?;
+    let mut partial = output.partial_paths();
+    partial.extend(checkpoints.iter().map(|place| place.partial_path().to_path_buf()));
+    interrupt::listen(partial)?;
 
     let (scene, load) = timed(|| in_pool(&job.settings, || scene::load(&job.scene)));
     let scene = scene?;
@@ -38,45 +86,51 @@ pub(super) fn run(job: &Job) -> anyhow::Result<u8> {
         scene.warnings.iter().for_each(say);
         say(describe::scene(&scene.desc));
     }
+    Estimate::new(&scene.desc, &job.settings, job.denoise).check()?;
     let (world, compile) = timed(|| in_pool(&job.settings, || World::compile(&scene.desc)));
     let world = world?;
     let guards = in_pool(&job.settings, || world.guards(&scene.desc, job.settings.width))?;
     if !job.quiet {
         guards.iter().for_each(say);
     }
+    // The world has all it needs of the meshes.
+    let (camera, digest) = (scene.desc.camera.clone(), scene.digest);
+    drop(scene);
+    let recipe = Recipe::new(&job.scene, digest, &job.settings)?;
+    let view = View::new(&world, &camera, job.settings.width, job.settings.height);
+    let origin = Origin { recipe, view, brightest: world.brightest() };
+    let mut state = saving::resumed(job, &origin)?;
+    if let (Some(place), None) = (output.part(), &job.resume) {
+        match saving::existing_part(job, place, &origin) {
+            Found::Nothing => {}
+            Found::Begun(begun) => state = Some(*begun),
+            Found::Done => {
+                say(format_args!("{} is there already, and complete", job.image.display()));
+                return Ok(0);
+            }
+        }
+    }
+    if let (Some(state), false) = (&state, job.quiet) {
+        say(format_args!("going on after {} samples", state.samples()));
+    }
     if job.json {
         event::emit(&Event::Start { job: JobRecord::new(job), requires: &world.requires });
     }
 
-    // The world has all it needs of the meshes.
-    let (camera, digest) = (scene.desc.camera.clone(), scene.digest);
-    drop(scene);
     let reporter = Reporter::new(job);
-    let rendered = render(&world, &camera, &job.settings, &reporter);
+    let keeper = Keeper::new(&reporter, checkpoints.as_ref(), &origin, job.every);
+    let rendered = resume(&world, &camera, &job.settings, &keeper, state);
     reporter.finish();
     let rendered = rendered?;
+    let cancelled = rendered.ended == Ended::Cancelled;
     if rendered.film.samples() == 0 {
         return Err(Error::Interrupted.into());
     }
-    let provenance = Provenance {
-        scene: &job.scene,
-        digest,
-        camera: &camera,
-        world: &world,
-        settings: &job.settings,
-        samples: rendered.film.samples(),
-        is_clamped: rendered.counters.clamped > 0,
-        exposure: job.exposure,
-    };
-    let (written, write) = timed(|| target.write(&provenance, &rendered));
-    written?;
-    if let Some(error_bars) = error_bars
-        && !output::write_error_bars(&rendered.film, &error_bars)?
-    {
-        say(
-            "warning: no error bars were written: they need 16 samples, none of which may be too large for f32",
-        );
+    if cancelled && output.part().is_some() {
+        return unfinished(job, &keeper, &rendered);
     }
+    let (written, write) = timed(|| output.write(job, &origin, &rendered));
+    written.map_err(|error| saving::rescue(job, &origin, &rendered, error))?;
 
     if job.aov.contains(&Aov::Error) && Aov::Error.channels(&rendered).is_empty() {
         say("warning: the picture has no channel of errors: they need 16 samples");
@@ -87,7 +141,6 @@ pub(super) fn run(job: &Job) -> anyhow::Result<u8> {
     conclude(job, &rendered, seconds);
     if job.json {
         let summary = Summary::new(job, &world.requires, &rendered, seconds);
-        let cancelled = rendered.ended == Ended::Cancelled;
         event::emit(&if cancelled { Event::Interrupted(summary) } else { Event::Done(summary) });
     }
     Ok(match rendered.ended {
@@ -97,8 +150,49 @@ pub(super) fn run(job: &Job) -> anyhow::Result<u8> {
     })
 }
 
+/// Of a part that was interrupted only the checkpoint is left.
+fn unfinished(job: &Job, keeper: &Keeper<'_>, rendered: &Rendered) -> anyhow::Result<u8> {
+    if let Some(error) = keeper.failure() {
+        return Err(error.into());
+    }
+    say(format_args!(
+        "interrupted after {} of {} samples; the same command goes on with it",
+        rendered.film.samples(),
+        job.settings.samples_to_take()
+    ));
+    Ok(interrupt::exit_code().unwrap_or(1))
+}
+
+/// Writes a picture, and the errors of its pixels if they are wanted.
+pub(super) fn write_picture(
+    target: &Target,
+    error_bars: Option<&Destination>,
+    job: &Job,
+    origin: &Origin,
+    rendered: &Rendered,
+) -> Result<()> {
+    let provenance = Provenance {
+        scene: &job.scene,
+        digest: origin.recipe.digest,
+        view: &origin.view,
+        settings: &job.settings,
+        samples: rendered.film.samples(),
+        is_clamped: rendered.counters.clamped > 0,
+        exposure: job.exposure,
+    };
+    target.write(&provenance, rendered)?;
+    if let Some(error_bars) = error_bars
+        && !output::write_error_bars(&rendered.film, error_bars)?
+    {
+        say(
+            "warning: no error bars were written: they need 16 samples, none of which may be too large for f32",
+        );
+    }
+    Ok(())
+}
+
 /// Where the errors of the pixels go.
-fn error_bars(path: &Path) -> Result<Destination> {
+pub(super) fn error_bars(path: &Path) -> Result<Destination> {
     let destination = Destination::new(path)?;
     match destination.format() {
         Format::Exr => Ok(destination),

@@ -6,7 +6,9 @@
 //! its digits; so the order in which chunks arrive, and any split of a render at chunk borders, make the same bits.
 
 mod error_bar;
+pub mod file;
 mod picture_error;
+mod region;
 mod stops;
 mod student;
 mod sums;
@@ -14,6 +16,7 @@ mod sums;
 pub use error_bar::ErrorBar;
 pub(crate) use picture_error::relative_weight;
 pub use picture_error::{Estimate, PictureError, PictureErrorSum, Pixels};
+pub use region::Region;
 pub use stops::{BLOCK, HALVES, Stops, samples_of_halves};
 pub use student::quantile;
 pub(crate) use sums::grey;

@@ -48,9 +48,9 @@ impl Film {
         self.stops = Some(stops);
     }
 
-    /// Samples of a pixel, counted row by row from the top left.
-    pub fn samples_of(&self, pixel: usize) -> u64 {
-        self.stopped_counts(pixel).map_or(self.samples(), |counts| counts.iter().sum())
+    /// After how many samples the halves of every block stopped, row by row, where blocks stop.
+    pub fn stopped(&self) -> Option<&[[u64; HALVES]]> {
+        self.stops.as_ref().map(|stops| stops.halves.as_slice())
     }
 
     /// Samples of each scramble in a pixel of a film with blocks.

@@ -3,6 +3,7 @@
 use super::session::Frame;
 use crate::error::Result;
 use crate::output::{Provenance, Target, Wanted};
+use crate::render;
 use crate::scene::{self, edit};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -39,11 +40,12 @@ pub fn write(frame: &Frame, path: &Path, exposure: f64) -> Result<()> {
         let text = edit::save(&loaded.text, &loaded.scene.desc, &frame.editable)?;
         scene::parse(&text, &loaded.path)?.digest
     };
+    let (width, height) = (frame.settings.width, frame.settings.height);
+    let view = render::View::new(&frame.world, &frame.editable.camera, width, height);
     let provenance = Provenance {
         scene: &loaded.path,
         digest,
-        camera: &frame.editable.camera,
-        world: &frame.world,
+        view: &view,
         settings: &frame.settings,
         samples: frame.samples,
         is_clamped: false,

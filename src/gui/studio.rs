@@ -130,7 +130,9 @@ impl Studio {
         let before = self.document.loaded.clone();
         match self.document.poll() {
             Some(Event::Loaded) => self.take_loaded(before),
-            Some(Event::Failed) => self.say_error("the scene has errors; the picture is that of the last good one".into()),
+            Some(Event::Failed) => {
+                self.say_error("the scene has errors; the picture is that of the last good one".into())
+            }
             None => {}
         }
         if self.document.has_changed()

@@ -1,9 +1,10 @@
 //! What is counted while paths are traced.
 
+use serde::{Deserialize, Serialize};
 use std::ops::AddAssign;
 
 /// Counts of one or more samples. All are integers, so that their sums do not depend on the order of adding.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Counters {
     /// Rays given to the accelerator, shadow rays included.
     pub rays: u64,
@@ -52,7 +53,7 @@ impl AddAssign for Counters {
 
 /// A sum of numbers >= 0 in steps of 2^-32, the same for every order of adding: each number is rounded to the nearest
 /// step, the rest is exact up to 2^96, where it stays.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FixedSum(u128);
 
 impl FixedSum {

@@ -5,12 +5,9 @@
 //! `pathtracer:`.
 
 use crate::accel::{Precision, used_isa};
-use crate::math::DVec3;
 use crate::picture::{Destination, Metadata, Value};
-use crate::render::{AccelKind, CHUNK, Settings};
+use crate::render::{AccelKind, CHUNK, Settings, View};
 use crate::scene::Digest;
-use crate::scene::desc::CameraDesc;
-use crate::world::World;
 use std::path::Path;
 
 /// What a picture is made from.
@@ -20,9 +17,7 @@ pub struct Provenance<'p> {
     /// Of the scene and all that it names.
     pub digest: Digest,
     /// The scene's camera.
-    pub camera: &'p CameraDesc,
-    /// The scene, compiled.
-    pub world: &'p World,
+    pub view: &'p View,
     /// The settings of the render.
     pub settings: &'p Settings,
     /// Samples per pixel that were taken, maybe fewer than the settings say.
@@ -77,8 +72,8 @@ impl Provenance<'_> {
         let mut metadata = Metadata::default();
         let text = |text: String| Value::Text(text);
         metadata.push("Software", text(format!("pathtracer {}", env!("CARGO_PKG_VERSION"))));
-        metadata.push("worldToCamera", Value::Matrix(self.world_to_camera()));
-        metadata.push("fov", Value::Number(self.camera.fov * 180.0));
+        metadata.push("worldToCamera", Value::Matrix(self.view.world_to_camera));
+        metadata.push("fov", Value::Number(self.view.fov * 180.0));
         // There are at most 2^32 samples.
         metadata.push("samplesPerPixel", Value::Integer(self.samples as i64));
         let scene = self.scene.file_name().unwrap_or_default().to_string_lossy();
@@ -103,24 +98,6 @@ impl Provenance<'_> {
     /// Whether kernels of Embree's own decide, which differ between instruction sets and trees.
     fn embree_decides(&self) -> bool {
         self.accelerator_matters() && self.settings.accel == AccelKind::Embree
-    }
-
-    /// The matrix that OpenEXR's standard describes: from the scene to x to the right, y up and z forward, for row
-    /// vectors.
-    fn world_to_camera(&self) -> [f64; 16] {
-        let camera = self.world.camera(self.camera, self.settings.width, self.settings.height);
-        let axes = [camera.right, camera.up, camera.forward];
-        let position = camera.position + self.world.origin;
-        let row = |of: fn(DVec3) -> f64| axes.map(of);
-        let moved = axes.map(|axis| -axis.dot(position));
-        let [x, y, z] = [row(|a| a.x), row(|a| a.y), row(|a| a.z)];
-        let mut matrix = [0.0; 16];
-        for (to, from) in matrix.chunks_exact_mut(4).zip([x, y, z, moved]) {
-            // Adding zero turns -0 into 0.
-            to[..3].copy_from_slice(&from.map(|value| value + 0.0));
-        }
-        matrix[15] = 1.0;
-        matrix
     }
 }
 

@@ -53,6 +53,12 @@ impl Target {
         &self.picture
     }
 
+    /// The files that hold pictures until they are complete.
+    pub fn partial_paths(&self) -> Vec<PathBuf> {
+        let noisy = self.denoised.as_ref().map(|(noisy, _)| noisy);
+        [&self.picture].into_iter().chain(noisy).map(|place| place.partial_path().to_path_buf()).collect()
+    }
+
     /// Whether one of the pictures goes to the same file.
     pub fn holds(&self, other: &Destination) -> bool {
         let noisy = self.denoised.as_ref().map(|(noisy, _)| noisy.path());
@@ -90,8 +96,9 @@ impl Target {
     /// What the picture's file says.
     fn metadata(&self, destination: &Destination, made: &Made<'_>) -> Metadata {
         let mut metadata = made.provenance.metadata(destination);
-        let mut own =
-            |name: &str, value: String| metadata.push(format!("{}{name}", output::PREFIX), Value::Text(value));
+        let mut own = |name: &str, value: String| {
+            metadata.push(format!("{}{name}", output::PREFIX), Value::Text(value))
+        };
         if let Some(denoiser) = made.denoiser {
             own("denoised", format!("oidn-{}", denoiser.version()));
         }

@@ -7,8 +7,10 @@
 use super::Settings;
 use super::cells::{Cells, Layout};
 use crate::error::Result;
-use crate::film::{BLOCK, HALVES, Stops, relative_weight, samples_of_halves};
+use crate::film::file::{Reader, Writer};
+use crate::film::{BLOCK, HALVES, Region, Stops, relative_weight, samples_of_halves};
 use crate::sampling::{SCRAMBLES, Scrambles};
+use std::io;
 use std::ops::Range;
 
 /// Samples before which no block stops: with fewer, dark pixels have not met their light yet.
@@ -25,6 +27,8 @@ pub(super) struct Adaptive {
     blocks: Vec<Block>,
     /// Samples that a pixel of a block which has not stopped has.
     samples: u64,
+    /// The pixels that take samples at all.
+    region: Region,
 }
 
 #[derive(Clone, Copy)]
@@ -39,15 +43,20 @@ impl Adaptive {
     pub(super) fn new(settings: &Settings, target: f64) -> Result<Adaptive> {
         let Settings { width, height, .. } = *settings;
         let count = width.div_ceil(BLOCK) as usize * height.div_ceil(BLOCK) as usize;
-        let block = Block { stops: [None; HALVES], squares: [f64::INFINITY; HALVES] };
+        let columns = width.div_ceil(BLOCK) as usize;
+        let block = |number: usize| {
+            let (x, y) = ((number % columns) as u32 * BLOCK, (number / columns) as u32 * BLOCK);
+            Block::new(settings.region.contains(width, x, y))
+        };
         Ok(Adaptive {
             target,
             scrambles: settings.scrambles(),
             width,
             height,
-            sums: Cells::new(settings, 0..1)?,
-            blocks: vec![block; count],
+            sums: Cells::new(settings, 0)?,
+            blocks: (0..count).map(block).collect(),
             samples: 0,
+            region: settings.region,
         })
     }
 
@@ -70,8 +79,10 @@ impl Adaptive {
 
     /// The root of the mean of the blocks' squared errors, where all have been judged.
     pub(super) fn error(&self) -> Option<f64> {
-        let squares = self.blocks.iter().map(|block| 0.5 * block.squares.iter().sum::<f64>());
-        let root = (squares.sum::<f64>() / self.blocks.len() as f64).sqrt();
+        let own = self.blocks.iter().filter(|block| block.stops != NOT_THERE);
+        let squares = own.map(|block| 0.5 * block.squares.iter().sum::<f64>());
+        let (sum, count) = squares.fold((0.0, 0.0), |(sum, count), square| (sum + square, count + 1.0));
+        let root = (sum / count).sqrt();
         root.is_finite().then_some(root)
     }
 
@@ -173,7 +184,58 @@ impl Adaptive {
     }
 }
 
+/// The stops of a block that takes no samples.
+const NOT_THERE: [Option<u64>; HALVES] = [Some(0); HALVES];
+
+/// What a file says of a half that has not stopped.
+const OPEN: u64 = u64::MAX;
+
+impl Adaptive {
+    /// Samples that a pixel of a block which has not stopped has.
+    pub(super) fn samples(&self) -> u64 {
+        self.samples
+    }
+
+    /// Writes all that is known.
+    pub(super) fn write(&self, writer: &mut Writer) -> io::Result<()> {
+        let pixels = self.region.pixels(self.width, self.height);
+        writer.doubles(pixels.flat_map(|pixel| self.sums.cell(pixel).iter().copied()))?;
+        let stops = self.blocks.iter().flat_map(|block| block.stops);
+        writer.integers(stops.map(|stop| stop.unwrap_or(OPEN)))?;
+        writer.doubles(self.blocks.iter().flat_map(|block| block.squares))
+    }
+
+    /// Reads what was written after so many samples.
+    pub(super) fn read(&mut self, samples: u64, reader: &mut Reader) -> Result<()> {
+        let stride = Layout::Halved.stride();
+        let values = reader.light(self.region.area(self.width, self.height) * stride as u64)?;
+        for (pixel, cell) in self.region.pixels(self.width, self.height).zip(values.chunks_exact(stride)) {
+            self.sums.cell_mut(pixel).copy_from_slice(cell);
+        }
+        let stops = reader.integers((HALVES * self.blocks.len()) as u64)?;
+        let squares = reader.light((HALVES * self.blocks.len()) as u64)?;
+        let read = stops.as_chunks::<HALVES>().0.iter().zip(squares.as_chunks::<HALVES>().0);
+        for (block, (stops, &squares)) in self.blocks.iter_mut().zip(read) {
+            let stops = stops.map(|stop| (stop != OPEN).then_some(stop));
+            let is_absent = block.stops == NOT_THERE;
+            if is_absent != (stops == NOT_THERE) || stops.iter().flatten().any(|&stop| stop > samples) {
+                return Err(reader.refuse("holds blocks that can't have stopped there"));
+            }
+            *block = Block { stops, squares };
+        }
+        self.samples = samples;
+        Ok(())
+    }
+}
+
 impl Block {
+    fn new(takes_samples: bool) -> Block {
+        match takes_samples {
+            true => Block { stops: [None; HALVES], squares: [f64::INFINITY; HALVES] },
+            false => Block { stops: NOT_THERE, squares: [0.0; HALVES] },
+        }
+    }
+
     fn is_open(&self) -> bool {
         self.stops.contains(&None)
     }

@@ -2,6 +2,7 @@
 
 use super::{Settings, memory};
 use crate::error::Result;
+use crate::film::file::Reader;
 use crate::film::{Greys, HALVES, Sums};
 use crate::math::Rgb;
 use crate::sampling::{SCRAMBLES, Scrambles};
@@ -32,9 +33,10 @@ pub(super) enum Layout {
 const RADIANCE: usize = 3;
 
 impl Layout {
-    /// What a chunk of these samples needs.
-    pub(super) fn new(settings: &Settings, samples: Range<u64>) -> Layout {
-        match settings.scrambles().only(samples) {
+    /// What the chunk that begins with a sample needs. It is that of a whole chunk, even where fewer samples are wanted: then
+    /// more can follow later.
+    pub(super) fn new(settings: &Settings, first: u64) -> Layout {
+        match settings.scrambles().only(first..first + u64::from(settings.chunk)) {
             _ if settings.noise.is_some() => Layout::Halved,
             Some(scramble) => Layout::Plain(scramble),
             None => Layout::Scrambled,
@@ -86,11 +88,26 @@ impl Layout {
 }
 
 impl Cells {
-    /// Empty cells for these samples.
-    pub(super) fn new(settings: &Settings, samples: Range<u64>) -> Result<Cells> {
-        let (first, scrambles) = (samples.start, settings.scrambles());
-        let layout = Layout::new(settings, samples);
+    /// Empty cells for the chunk that begins with a sample.
+    pub(super) fn new(settings: &Settings, first: u64) -> Result<Cells> {
+        let (layout, scrambles) = (Layout::new(settings, first), settings.scrambles());
         Ok(Cells { samples: 0, values: memory::zeros(settings, layout.stride())?, layout, first, scrambles })
+    }
+
+    /// Reads the `samples` samples of the chunk that begins with a sample.
+    pub(super) fn read(settings: &Settings, first: u64, samples: u64, reader: &mut Reader) -> Result<Cells> {
+        if !(samples.is_power_of_two() && samples < u64::from(settings.chunk)) {
+            return Err(reader.refuse("holds a pass that can't be"));
+        }
+        let mut cells = Cells::new(settings, first)?;
+        let stride = cells.layout.stride();
+        let values = reader.light(settings.area() * stride as u64)?;
+        let pixels = settings.region.pixels(settings.width, settings.height);
+        for (pixel, cell) in pixels.zip(values.chunks_exact(stride)) {
+            cells.cell_mut(pixel).copy_from_slice(cell);
+        }
+        cells.samples = samples;
+        Ok(cells)
     }
 
     /// A copy, if there is memory for it.

@@ -6,6 +6,7 @@ use super::error_pixels::ErrorPixels;
 use super::meter::Meter;
 use super::outlook::{History, Outlook};
 use super::pace::Pace;
+use super::saved::{Snapshot, State, is_whole};
 use super::so_far::SoFar;
 use super::tile::{self, Pass, Tile, Work};
 use super::{Ended, Rendered, Settings, Watch};
@@ -17,14 +18,20 @@ use rayon::prelude::*;
 use std::ops::Range;
 
 /// Takes all samples.
-pub(super) fn take_samples<F>(settings: &Settings, watch: &dyn Watch, sample: F) -> Result<Rendered>
+pub(super) fn take_samples<F>(
+    settings: &Settings,
+    watch: &dyn Watch,
+    sample: F,
+    state: Option<State>,
+) -> Result<Rendered>
 where
     F: Fn(u32, u32, u64, &mut Counters) -> Rgb + Sync,
 {
-    let mut chunks = Chunks::new(settings, watch, sample)?;
+    let mut chunks = Chunks::new(settings, watch, sample, state)?;
     let ended = chunks.take_all()?;
     let render_seconds = chunks.pace.elapsed();
     let error = chunks.error();
+    let error_sums = chunks.error_pixels.iter().flat_map(ErrorPixels::numbers).collect();
     let Chunks { film, work, .. } = chunks;
     let Work { samples, counters } = work;
     let clamp = settings.clamp;
@@ -34,6 +41,7 @@ where
         counters,
         clamp,
         error,
+        error_sums,
         ended,
         features: None,
         brightest: 1.0,
@@ -55,17 +63,21 @@ struct Chunks<'s, F> {
     history: History,
     error_pixels: Option<ErrorPixels>,
     blocks: Option<Adaptive>,
+    /// Of the chunk with which a resumed render begins.
+    cells: Option<Cells>,
 }
 
 impl<'s, F> Chunks<'s, F>
 where
     F: Fn(u32, u32, u64, &mut Counters) -> Rgb + Sync,
 {
-    fn new(settings: &'s Settings, watch: &'s dyn Watch, sample: F) -> Result<Chunks<'s, F>> {
-        let blocks = settings.noise.map(|target| Adaptive::new(settings, target)).transpose()?;
-        // Blocks know their error.
-        let error_pixels = (settings.error_estimate && blocks.is_none()).then(|| ErrorPixels::new(settings));
-        Ok(Chunks {
+    fn new(
+        settings: &'s Settings,
+        watch: &'s dyn Watch,
+        sample: F,
+        state: Option<State>,
+    ) -> Result<Chunks<'s, F>> {
+        let mut chunks = Chunks {
             settings,
             watch,
             sample,
@@ -74,28 +86,77 @@ where
             pace: Pace::new(settings.time),
             meter: Meter::new(settings),
             history: History::default(),
-            error_pixels,
-            blocks,
-        })
+            error_pixels: ErrorPixels::wanted(settings),
+            blocks: None,
+            cells: None,
+        };
+        match state {
+            Some(state) => chunks.resume(state),
+            None => {
+                chunks.blocks = settings.noise.map(|target| Adaptive::new(settings, target)).transpose()?;
+            }
+        }
+        Ok(chunks)
+    }
+
+    /// Takes over what was done before.
+    fn resume(&mut self, state: State) {
+        let State { film, cells, work, error_sums, blocks, passed: [seconds, samples] } = state;
+        if let Some(pixels) = &mut self.error_pixels {
+            pixels.add(&error_sums, self.settings.region, self.settings.width);
+        }
+        self.pace.resume(seconds, samples);
+        self.meter.resume(&work);
+        (self.film, self.cells, self.work, self.blocks) = (film, cells, work, blocks);
     }
 
     fn take_all(&mut self) -> Result<Ended> {
         let (chunk, most) = (u64::from(self.settings.chunk), self.settings.most_samples());
-        for index in 0..most.div_ceil(chunk) {
+        let Range { start, end } = self.settings.chunk_range();
+        for index in start + self.film.samples() / chunk..end {
+            if self.blocks.as_ref().is_some_and(Adaptive::is_done) {
+                return Ok(Ended::Complete);
+            }
             let (cells, ended) = self.chunk(index * chunk..most.min((index + 1) * chunk))?;
+            let is_full = cells.samples == chunk;
+            if !is_full && self.is_regular(index * chunk, cells.samples) {
+                self.save(Some(&cells), true);
+            }
             if cells.samples > 0 {
                 self.keep(index, cells)?;
                 self.watch.pass(&SoFar::new(&self.film, None));
             }
+            if is_full {
+                let is_done = self.blocks.as_ref().is_some_and(Adaptive::is_done);
+                self.save(None, is_done || index + 1 == end);
+            }
             if let Some(ended) = ended {
                 return Ok(ended);
-            }
-            if self.blocks.as_ref().is_some_and(Adaptive::is_done) {
-                return Ok(Ended::Complete);
             }
         }
         let missed = self.blocks.as_ref().is_some_and(|blocks| !blocks.is_done());
         Ok(if missed { Ended::OutOfSamples } else { Ended::Complete })
+    }
+
+    /// Whether a chunk that began with `first` has so many samples after one of its passes, however many are wanted in all:
+    /// only from there a render with more samples can go on as if it had wanted them from the beginning.
+    fn is_regular(&self, first: u64, samples: u64) -> bool {
+        let in_passes = self.blocks.is_none() || first == 0;
+        samples == 0 || samples == u64::from(self.settings.chunk) || in_passes && samples.is_power_of_two()
+    }
+
+    /// Hands out what it takes to go on from here.
+    fn save(&self, cells: Option<&Cells>, is_last: bool) {
+        self.watch.keep(&Snapshot {
+            settings: self.settings,
+            film: &self.film,
+            cells: cells.filter(|cells| cells.samples > 0),
+            work: self.work,
+            error_pixels: self.error_pixels.as_ref(),
+            blocks: self.blocks.as_ref(),
+            passed: self.pace.passed(),
+            is_last,
+        });
     }
 
     /// Adds a chunk to the film.
@@ -112,19 +173,26 @@ where
     /// samples, or fewer where the time is short, added in the same order as in one go. Where blocks stop, few pixels may
     /// be left, so all after the first chunk is one pass.
     fn chunk(&mut self, samples: Range<u64>) -> Result<(Cells, Option<Ended>)> {
-        let mut cells = Cells::new(self.settings, samples.clone())?;
+        let mut cells = match self.cells.take() {
+            Some(cells) => cells,
+            None => Cells::new(self.settings, samples.start)?,
+        };
         let mut complete = cells.try_clone(self.settings)?;
         let is_one_pass = self.blocks.is_some() && samples.start > 0;
         loop {
             let next = samples.start + cells.samples;
             let doubled = if is_one_pass { u64::MAX } else { cells.samples.max(1) };
-            let wanted = doubled.min(samples.end - next);
+            let wanted = doubled.min(samples.end.saturating_sub(next));
             if wanted == 0 {
                 return Ok((cells, None));
             }
             let fitting = self.pace.fitting(wanted, self.open_pixels());
             if fitting == 0 {
                 return Ok((cells, Some(Ended::OutOfTime)));
+            }
+            let is_regular = |samples: u64| self.is_regular(next - cells.samples, samples);
+            if is_regular(cells.samples) && !is_regular(cells.samples + fitting) {
+                self.save(Some(&cells), true);
             }
             if !self.pass(next..next + fitting, &mut cells) {
                 let ended = if self.watch.cancelled() { Ended::Cancelled } else { Ended::OutOfTime };
@@ -133,6 +201,9 @@ where
             self.look_ahead(&cells);
             if cells.samples < samples.end - samples.start {
                 complete.copy_from(&cells);
+                if self.is_regular(samples.start, cells.samples) {
+                    self.save(Some(&cells), false);
+                }
                 if self.blocks.is_none() {
                     self.watch.pass(&SoFar::new(&self.film, Some(&cells)));
                 }
@@ -148,7 +219,8 @@ where
         let error_pixels = self.error_pixels.as_ref().filter(|_| samples.start < scrambles.first_round());
         let (clamp, blocks) = (self.settings.clamp, self.blocks.as_ref());
         let side = self.settings.tile_side_for(self.open_pixels());
-        let pass = Pass { samples, before: cells.samples, clamp, scrambles, blocks };
+        let Settings { region, width, .. } = *self.settings;
+        let pass = Pass { samples, before: cells.samples, clamp, scrambles, blocks, region, width };
         let cancelled = || self.watch.cancelled() || self.pace.is_over();
         let (work, sets) = rayon::join(
             || {
@@ -182,12 +254,14 @@ where
 
     /// The pixels that take samples.
     fn open_pixels(&self) -> u64 {
-        let all = u64::from(self.settings.width) * u64::from(self.settings.height);
-        self.blocks.as_ref().map_or(all, Adaptive::open_pixels)
+        self.blocks.as_ref().map_or_else(|| self.settings.area(), Adaptive::open_pixels)
     }
 
     /// The error of the picture.
     fn error(&self) -> Option<PictureError> {
+        if !is_whole(self.settings) {
+            return None;
+        }
         let has_scrambles = self.film.samples() >= self.settings.scrambles().first_round();
         match &self.error_pixels {
             _ if has_scrambles => self.film.picture_error(),
@@ -201,15 +275,15 @@ where
         let samples = self.film.samples() + cells.samples;
         let error = match (&self.blocks, &self.error_pixels) {
             (Some(blocks), _) => blocks.error(),
-            (None, Some(pixels)) => self.error_so_far(pixels, samples, cells),
-            (None, None) => None,
+            (None, Some(pixels)) if is_whole(self.settings) => self.error_so_far(pixels, samples, cells),
+            _ => None,
         };
         if let Some(error) = error {
             self.history.add(samples, error);
         }
         let seconds_left = self.seconds_left(samples);
         let per_sample = self.pace.seconds_per_sample().map(|seconds| seconds * self.open_pixels() as f64);
-        let most = self.settings.most_samples() as f64;
+        let most = self.settings.samples_to_take() as f64;
         let at_end = match (self.pace.left(), per_sample) {
             (Some(left), Some(seconds)) => (samples as f64 + left / seconds).min(most),
             _ => most,
@@ -226,7 +300,7 @@ where
     /// Seconds until the target, the time or the last sample is reached, whichever comes first.
     fn seconds_left(&self, samples: u64) -> Option<f64> {
         let seconds = self.pace.seconds_per_sample()?;
-        let all = (self.settings.most_samples() - samples) as f64 * self.open_pixels() as f64;
+        let all = self.settings.samples_to_take().saturating_sub(samples) as f64 * self.open_pixels() as f64;
         let target = self.blocks.as_ref().and_then(|blocks| blocks.samples_left(self.history.slope()));
         let sampling = seconds * target.unwrap_or(all).min(all);
         Some(self.pace.left().unwrap_or(f64::INFINITY).min(sampling))

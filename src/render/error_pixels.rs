@@ -2,7 +2,7 @@
 
 use super::Settings;
 use super::tile::Pass;
-use crate::film::{Film, PictureError, PictureErrorSum, Pixels, grey};
+use crate::film::{Film, PictureError, PictureErrorSum, Pixels, Region, grey};
 use crate::integrator::Counters;
 use crate::math::Rgb;
 use crate::sampling::{SCRAMBLES, stream};
@@ -41,6 +41,11 @@ struct ErrorPixel {
 pub(super) type SetSums = Vec<[Rgb; SETS]>;
 
 impl ErrorPixels {
+    /// Those of a render that estimates its error by them; blocks know theirs.
+    pub(super) fn wanted(settings: &Settings) -> Option<ErrorPixels> {
+        (settings.error_estimate && settings.noise.is_none()).then(|| ErrorPixels::new(settings))
+    }
+
     pub(super) fn new(settings: &Settings) -> ErrorPixels {
         let (width, height) = (u64::from(settings.width), u64::from(settings.height));
         let pixels = width * height;
@@ -66,7 +71,29 @@ impl ErrorPixels {
                 sums: [Rgb::ZERO; SETS],
             }
         });
-        ErrorPixels { all: all.collect(), pixels: pixels as f64 }
+        let own = all.filter(|pixel| settings.region.contains(settings.width, pixel.x, pixel.y));
+        ErrorPixels { all: own.collect(), pixels: pixels as f64 }
+    }
+
+    /// How many numbers [`ErrorPixels::numbers`] gives.
+    pub(super) fn count(&self) -> u64 {
+        (self.all.len() * SETS * 3) as u64
+    }
+
+    /// The sums of all sets of all pixels.
+    pub(super) fn numbers(&self) -> impl Iterator<Item = f64> + '_ {
+        self.all.iter().flat_map(|pixel| pixel.sums).flat_map(|sum| sum.to_array())
+    }
+
+    /// Adds such numbers to the pixels of a region; false if they are not as many.
+    pub(super) fn add(&mut self, numbers: &[f64], region: Region, width: u32) -> bool {
+        let own = self.all.iter_mut().filter(|pixel| region.contains(width, pixel.x, pixel.y));
+        let mut rest = numbers.chunks_exact(3);
+        for sum in own.flat_map(|pixel| &mut pixel.sums) {
+            let Some(rgb) = rest.next() else { return false };
+            *sum += Rgb::new(rgb[0], rgb[1], rgb[2]);
+        }
+        rest.next().is_none()
     }
 
     /// The sums after a pass; `None` if `cancelled`.

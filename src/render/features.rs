@@ -2,9 +2,13 @@
 
 use super::{Settings, Watch, memory};
 use crate::error::Result;
+use crate::film::Region;
+use crate::film::file::{Reader, Writer};
 use crate::integrator::Features;
+use crate::math::DVec3;
 use crate::picture::{Channel, Samples};
 use rayon::prelude::*;
+use std::io;
 
 /// What is seen in every pixel.
 #[derive(Clone, Debug)]
@@ -68,6 +72,9 @@ where
     let mut pixels: Vec<Features> = memory::plane(settings)?;
     pixels.par_chunks_mut(width).enumerate().for_each(|(y, row)| {
         for (pixel, x) in row.iter_mut().zip(0u32..) {
+            if !settings.region.contains(settings.width, x, y as u32) {
+                continue;
+            }
             let samples = if watch.cancelled() { samples.min(1) } else { samples };
             for sample in 0..samples {
                 *pixel += feature(x, y as u32, scrambles.place(sample).sample_index());
@@ -77,7 +84,50 @@ where
     Ok(FeaturePlanes { pixels })
 }
 
+/// Numbers of a pixel's features that are no integers.
+const DOUBLES: usize = 10;
+/// The others.
+const INTEGERS: usize = 3;
+
 impl FeaturePlanes {
+    /// Nothing seen yet.
+    pub(super) fn new(settings: &Settings) -> Result<FeaturePlanes> {
+        Ok(FeaturePlanes { pixels: memory::plane(settings)? })
+    }
+
+    /// Writes those of the region of a render.
+    pub(super) fn write(&self, settings: &Settings, writer: &mut Writer) -> io::Result<()> {
+        let own = || settings.region.pixels(settings.width, settings.height).map(|pixel| &self.pixels[pixel]);
+        writer.doubles(own().flat_map(|p| {
+            let vectors = [p.albedo, p.normal, p.position].into_iter().flat_map(|vector| vector.to_array());
+            vectors.chain([p.depth])
+        }))?;
+        writer.integers(own().flat_map(|p| [p.samples, p.hits, p.object.into()]))
+    }
+
+    /// Reads those of a region.
+    pub(super) fn read(&mut self, settings: &Settings, region: Region, reader: &mut Reader) -> Result<()> {
+        let area = region.area(settings.width, settings.height);
+        let doubles = reader.doubles(area * DOUBLES as u64)?;
+        let integers = reader.integers(area * INTEGERS as u64)?;
+        let (doubles, integers) = (doubles.chunks_exact(DOUBLES), integers.chunks_exact(INTEGERS));
+        let pixels = region.pixels(settings.width, settings.height);
+        for (pixel, (d, i)) in pixels.zip(doubles.zip(integers)) {
+            let vector = |at: usize| DVec3::new(d[at], d[at + 1], d[at + 2]);
+            self.pixels[pixel] = Features {
+                samples: i[0],
+                hits: i[1],
+                albedo: vector(0),
+                normal: vector(3),
+                position: vector(6),
+                depth: d[9],
+                // Indices are below 2^31.
+                object: i[2] as u32,
+            };
+        }
+        Ok(())
+    }
+
     /// The channels of some features.
     pub fn channels(&self, kinds: &[FeatureKind]) -> Vec<Channel> {
         kinds.iter().flat_map(|&kind| self.channels_of(kind)).collect()
@@ -118,7 +168,7 @@ impl FeaturePlanes {
 
     /// Albedo and normals as three floats a pixel.
     pub fn guides(&self) -> [Vec<f32>; 2] {
-        let mean = |of: fn(&Features) -> crate::math::DVec3| {
+        let mean = |of: fn(&Features) -> DVec3| {
             let means = self.pixels.iter().map(|pixel| of(pixel) / pixel.samples.max(1) as f64);
             means.flat_map(|mean| mean.to_array().map(|value| value as f32)).collect()
         };

@@ -6,8 +6,8 @@ use crate::error::{Error, Result};
 use crate::film::Film;
 use crate::integrator::Features;
 use crate::math::Rgb;
+use crate::memory::available_bytes;
 use crate::sampling::SCRAMBLES;
-use std::fs;
 
 /// The most bytes that the film and its picture take at once. Without a limit of samples, 65,536 are reckoned with.
 pub fn film_bytes(settings: &Settings) -> u64 {
@@ -15,15 +15,18 @@ pub fn film_bytes(settings: &Settings) -> u64 {
     let chunk = u64::from(settings.chunk.max(1));
     let samples = if settings.samples == 0 { 1 << 16 } else { settings.samples };
     let radiance = size_of::<Rgb>() as u64;
-    let bytes = |samples: u64| match Layout::new(settings, 0..samples.max(1)) {
+    let only = |samples: u64| settings.scrambles().only(0..samples.max(1)).is_some();
+    let bytes = |samples: u64| match Layout::new(settings, 0) {
+        Layout::Plain(_) if !only(samples) => radiance + (size_of::<f32>() * SCRAMBLES) as u64,
         Layout::Plain(_) => radiance + size_of::<f32>() as u64,
         Layout::Scrambled => radiance + (size_of::<f32>() * SCRAMBLES) as u64,
         Layout::Halved => 2 * radiance + (size_of::<f32>() * SCRAMBLES) as u64,
     };
     let nodes = Film::most_nodes(samples.div_ceil(chunk));
-    let film: u64 = (0..nodes).map(|node| bytes(chunk.saturating_mul(1 << node).min(samples))).sum();
+    let film: u64 =
+        (0..nodes).map(|node| bytes(chunk.saturating_mul(1 << node).min(samples.max(chunk)))).sum();
     // Beside it the chunk under way and its last complete pass, and what blocks know of themselves; afterwards the encoded picture (24 bytes a pixel for EXR).
-    let under_way = Layout::new(settings, 0..chunk).stride() * size_of::<f64>();
+    let under_way = Layout::new(settings, 0).stride() * size_of::<f64>();
     let planes = if settings.noise.is_some() { 3 } else { 2 };
     pixels.saturating_mul(film + (planes * under_way) as u64)
 }
@@ -76,12 +79,4 @@ fn too_large(settings: &Settings, available: Option<u64>) -> Error {
 
 fn gigabytes(bytes: u64) -> String {
     format!("{:.1}", bytes as f64 / 1e9)
-}
-
-/// `MemAvailable` of Linux, in bytes.
-pub(crate) fn available_bytes() -> Option<u64> {
-    let text = fs::read_to_string("/proc/meminfo").ok()?;
-    let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
-    let kilobytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
-    kilobytes.checked_mul(1024)
 }

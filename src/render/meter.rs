@@ -16,10 +16,14 @@ pub(super) struct Meter {
 
 impl Meter {
     pub(super) fn new(settings: &Settings) -> Meter {
-        let pixels = u64::from(settings.width) * u64::from(settings.height);
-        let total = pixels.saturating_mul(settings.most_samples());
+        let total = settings.area().saturating_mul(settings.samples_to_take());
         let outlook = Mutex::new(Outlook::default());
         Meter { total, samples: AtomicU64::new(0), rays: AtomicU64::new(0), outlook }
+    }
+
+    /// Counts what was done before.
+    pub(super) fn resume(&self, work: &Work) {
+        self.add(work);
     }
 
     /// Remembers what is known about the error.

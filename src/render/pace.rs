@@ -22,6 +22,16 @@ impl Pace {
         Pace { start, deadline, last: 0.0, seconds: 0.0, samples: 0.0 }
     }
 
+    /// Goes on where another run was after so many seconds for so many samples.
+    pub(super) fn resume(&mut self, seconds: f64, samples: f64) {
+        (self.seconds, self.samples) = (seconds, samples);
+    }
+
+    /// The seconds and the samples of all passes.
+    pub(super) fn passed(&self) -> [f64; 2] {
+        [self.seconds, self.samples]
+    }
+
     /// Seconds since the start.
     pub(super) fn elapsed(&self) -> f64 {
         self.start.elapsed().as_secs_f64()

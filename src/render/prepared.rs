@@ -1,14 +1,14 @@
 //! What renders of the same shapes share: the accelerator, built once.
 
 use super::chunks::take_samples;
-use super::{AccelKind, Ended, FeaturePlanes, Rendered, Settings, Watch, features, in_pool};
+use super::{AccelKind, Ended, FeaturePlanes, Rendered, Settings, State, Watch, features, in_pool};
 use crate::accel::bvh::Bvh;
 #[cfg(feature = "embree")]
 use crate::accel::embree::Embree;
 use crate::accel::{Accelerator, BuildOptions};
 use crate::error::Result;
 use crate::geometry::Geometry;
-use crate::integrator::{FeatureTracer, Features, PathTracer};
+use crate::integrator::{Counters, FeatureTracer, Features, PathTracer};
 use crate::sampling::{Independent, Sampler, SamplerKind, Sobol};
 use crate::scene::desc::CameraDesc;
 use crate::world::World;
@@ -73,22 +73,23 @@ impl<'g> Prepared<'g> {
         watch: &dyn Watch,
     ) -> Result<Rendered> {
         settings.check()?;
-        in_pool(settings, || self.render_here(world, camera, settings, watch))
+        in_pool(settings, || self.render_here(world, camera, settings, watch, None))
     }
 
-    /// [`Prepared::render`] in the pool that this thread is in.
+    /// [`Prepared::render`] in the pool that this thread is in, from where a checkpoint was.
     pub(super) fn render_here(
         &self,
         world: &World,
         camera: &CameraDesc,
         settings: &Settings,
         watch: &dyn Watch,
+        state: Option<State>,
     ) -> Result<Rendered> {
         let run = Run { world, camera, settings, watch };
         let rendered = match &self.accelerator {
             #[cfg(feature = "embree")]
-            Built::Embree(accelerator) => run.with_accel(accelerator),
-            Built::Native(accelerator) => run.with_accel(accelerator),
+            Built::Embree(accelerator) => run.with_accel(accelerator, state),
+            Built::Native(accelerator) => run.with_accel(accelerator, state),
         }?;
         Ok(Rendered { build_seconds: self.build_seconds, ..rendered })
     }
@@ -121,30 +122,37 @@ struct Run<'r> {
 }
 
 impl Run<'_> {
-    fn with_accel<A: Accelerator>(&self, accel: &A) -> Result<Rendered> {
+    fn with_accel<A: Accelerator>(&self, accel: &A, state: Option<State>) -> Result<Rendered> {
+        let seed = self.settings.seed;
         match self.settings.sampler {
-            SamplerKind::Sobol => self.with_sampler(accel, Sobol::new(self.settings.seed)),
-            SamplerKind::Independent => self.with_sampler(accel, Independent::new(self.settings.seed)),
+            SamplerKind::Sobol => self.with_sampler(accel, Sobol::new(seed), state),
+            SamplerKind::Independent => self.with_sampler(accel, Independent::new(seed), state),
         }
     }
 
-    fn with_sampler<A: Accelerator, S: Sampler>(&self, accel: &A, sampler: S) -> Result<Rendered> {
+    fn with_sampler<A: Accelerator, S: Sampler>(
+        &self,
+        accel: &A,
+        sampler: S,
+        state: Option<State>,
+    ) -> Result<Rendered> {
         let Settings { width, height, bounces, light_sampling, .. } = *self.settings;
         let camera = self.world.camera(self.camera, width, height);
         let tracer = PathTracer::new(self.world, &camera, accel, bounces, light_sampling);
-        let rendered = take_samples(self.settings, self.watch, |x, y, index, counters| {
-            tracer.sample(&sampler, x, y, index, counters)
-        })?;
+        let sample = |x, y, index, counters: &mut Counters| tracer.sample(&sampler, x, y, index, counters);
+        let rendered = take_samples(self.settings, self.watch, sample, state)?;
         let rendered = Rendered { brightest: self.world.brightest(), ..rendered };
-        if !self.settings.features {
+        // Of the parts with the same pixels the first has the features, of all samples.
+        let (range, taken) = (self.settings.chunk_range(), rendered.film.samples());
+        if !self.settings.features || range.start > 0 {
             return Ok(rendered);
         }
         let tracer = FeatureTracer { world: self.world, camera: &camera, accelerator: accel };
         let start = Instant::now();
-        let features =
-            features::collect(self.settings, self.watch, rendered.film.samples(), |x, y, index| {
-                tracer.sample(&sampler, x, y, index)
-            })?;
+        let samples = if self.settings.chunks.is_some() { self.settings.samples } else { taken };
+        let features = features::collect(self.settings, self.watch, samples, |x, y, index| {
+            tracer.sample(&sampler, x, y, index)
+        })?;
         let ended = if self.watch.cancelled() { Ended::Cancelled } else { rendered.ended };
         let render_seconds = rendered.render_seconds + start.elapsed().as_secs_f64();
         Ok(Rendered { features: Some(features), ended, render_seconds, ..rendered })

@@ -3,10 +3,11 @@
 use super::adaptive::Adaptive;
 use super::cells::{Cells, Layout};
 use super::{FIREFLY, FIREFLY_BEFORE};
-use crate::film::grey;
+use crate::film::{Region, grey};
 use crate::integrator::Counters;
 use crate::math::Rgb;
 use crate::sampling::{Place, Scrambles};
+use serde::{Deserialize, Serialize};
 use std::ops::{AddAssign, Range};
 
 /// Samples that every pixel gets.
@@ -21,10 +22,14 @@ pub(super) struct Pass<'a> {
     pub(super) scrambles: Scrambles,
     /// Which blocks get them, if not all.
     pub(super) blocks: Option<&'a Adaptive>,
+    /// Which pixels of the picture get them.
+    pub(super) region: Region,
+    /// Of the picture.
+    pub(super) width: u32,
 }
 
 /// What a tile did.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Work {
     /// Samples of one pixel.
     pub(super) samples: u64,
@@ -69,7 +74,7 @@ impl Tile<'_> {
         let layout = self.layout;
         for (row, y) in self.rows.iter_mut().zip(self.y..) {
             for (cell, x) in row.chunks_exact_mut(layout.stride()).zip(self.x..) {
-                if pass.blocks.is_some_and(|blocks| !blocks.takes(x, y)) {
+                if !pass.takes(x, y) {
                     continue;
                 }
                 if cancelled() {
@@ -101,6 +106,15 @@ impl AddAssign for Work {
 }
 
 impl Pass<'_> {
+    /// Whether a pixel takes samples.
+    #[inline]
+    fn takes(&self, x: u32, y: u32) -> bool {
+        match self.blocks {
+            Some(blocks) => blocks.takes(x, y),
+            None => self.region.contains(self.width, x, y),
+        }
+    }
+
     /// What the sample at a place adds to its pixel.
     #[inline]
     pub(super) fn take<F>(

@@ -10,6 +10,7 @@ pub use scrambles::{Place, SCRAMBLES, Scrambles};
 pub use sobol::{Sobol, SobolSet};
 
 use crate::error::Error;
+use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
 
@@ -56,7 +57,8 @@ impl PixelSeed {
 }
 
 /// The samplers that a user can choose.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum SamplerKind {
     /// [`Sobol`]: less noise at equal samples.
     #[default]

@@ -8,6 +8,7 @@ use super::from_file::Part;
 use super::obj::{self, Failure, Fault};
 use super::yaml::value::Value;
 use crate::error::{Location, Severity};
+use crate::memory::available_bytes;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -60,12 +61,29 @@ impl Meshes {
     }
 }
 
+/// Bytes of memory that reading takes for a byte of a mesh file: its text and the mesh.
+const READ_BYTES: u64 = 2;
+
 fn shown(path: &Path) -> String {
     quote(&path.display().to_string())
 }
 
 /// Reads a mesh and reports what is wrong with it.
 fn read(path: &Path, value: Value<'_>, report: &mut Report) -> Option<(MeshDesc, Digest)> {
+    if let (Ok(file), Some(available)) = (std::fs::metadata(path), available_bytes())
+        && file.len().saturating_mul(READ_BYTES) > available
+    {
+        let gigabytes = |bytes: u64| bytes as f64 / 1e9;
+        let text = format!(
+            "names {}, a mesh of {:.1} GB that takes about {:.1} GB to read, and {:.1} GB of memory are free",
+            shown(path),
+            gigabytes(file.len()),
+            gigabytes(file.len().saturating_mul(READ_BYTES)),
+            gigabytes(available)
+        );
+        value.error(&text, Some("a coarser mesh takes less".to_owned()), report);
+        return None;
+    }
     let loaded = match obj::load(path) {
         Ok(loaded) => loaded,
         Err(Failure::Unreadable(reason)) => {

@@ -3,13 +3,17 @@ mod budget;
 mod check;
 mod compare;
 mod diff;
+mod farm;
+mod faults;
 mod features;
 mod findings;
 mod information;
 mod interrupt;
 mod json;
+mod parts;
 mod pictures;
 mod provenance;
+mod saved;
 mod tradeoff;
 mod usage;
 

@@ -109,7 +109,8 @@ fn shared_material() -> String {
         "      Material:\n        Type: Diffuse    # matt\n        Color: [0.5, 0.6, 0.4]\n",
         "      Material: &red\n        Type: Diffuse    # matt\n        Color: [0.5, 0.6, 0.4]\n",
     );
-    let own = "      Material:\n        Name: clear\n        Type: ClearCoat\n        Color: [0.8, 0.1, 0.1]\n";
+    let own =
+        "      Material:\n        Name: clear\n        Type: ClearCoat\n        Color: [0.8, 0.1, 0.1]\n";
     shared.replace(own, "      Material: *red   # the same\n")
 }
 

@@ -6,6 +6,7 @@ pub(crate) mod double_double;
 pub(crate) mod exact;
 pub(crate) mod meshes;
 pub(crate) mod random;
+pub(crate) mod random_scenes;
 pub(crate) mod rays;
 pub(crate) mod scenes;
 pub(crate) mod stats;

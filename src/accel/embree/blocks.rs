@@ -1,6 +1,6 @@
 //! Exact: Embree finds the boxes around blocks of triangles, the shared leaf decides.
 
-use super::scene::{BoundingBox, Device, Queries, Scene, UserGeometry, reach};
+use super::scene::{BoundingBox, Device, Queries, Scene, UserGeometry, contents, reach};
 use crate::accel::BuildOptions;
 use crate::accel::bvh::{Instructions, triangle_blocks};
 use crate::accel::fault::{Fault, SHRINK};
@@ -26,7 +26,7 @@ impl Blocks {
             padding = if fault == Fault::Padding { -f64::from(SHRINK) } else { padding };
         }
         let boxes = BlockBoxes { blocks, padding };
-        let scene = Scene::of_boxes(device, &boxes, boxes.blocks.len())?;
+        let scene = Scene::of_boxes(device, &boxes, boxes.blocks.len(), &contents(space))?;
         Ok(Blocks { scene, blocks: boxes.blocks, instructions })
     }
 

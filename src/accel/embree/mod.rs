@@ -62,7 +62,7 @@ impl<'g> Embree<'g> {
     /// [`Error::Accelerator`](crate::error::Error::Accelerator) with Embree's words for every other failure, such as
     /// too little memory.
     pub fn build(geometry: &'g Geometry, options: &BuildOptions) -> Result<Embree<'g>> {
-        let device = Device::new(options.isa)?;
+        let device = Device::new(options)?;
         let instructions = Instructions::choose(options.isa)?;
         let build = |space: &'g MeshSpace| {
             Ok(match options.precision {

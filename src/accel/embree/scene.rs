@@ -9,6 +9,7 @@ use crate::accel::{BuildOptions, BvhQuality, Isa, Precision};
 use crate::error::{Error, Result};
 use crate::geometry::{LocalRay, MeshSpace};
 use crate::math::round_up;
+use crate::memory::available_bytes;
 use embree_sys::*;
 use std::ffi::{CStr, CString, c_char, c_void};
 use std::marker::PhantomData;
@@ -53,20 +54,33 @@ pub(super) trait Filter: Queries {
     fn keeps_any(query: &mut Self::Any<'_>, triangle: u32) -> bool;
 }
 
+/// What Embree said went wrong.
+struct Failure {
+    code: RTCError,
+    text: String,
+}
+
+/// What Embree holds and may hold, in bytes.
+struct Memory {
+    bytes: AtomicI64,
+    most: i64,
+}
+
 /// Embree, while scenes are built. Scenes keep what they need of it alive.
 pub(super) struct Device {
     raw: RTCDevice,
     /// The first error since the last [`Device::check`]; Embree's threads write it.
-    error: Box<Mutex<Option<String>>>,
+    error: Box<Mutex<Option<Failure>>>,
     /// Bytes that Embree holds; its threads write it.
-    bytes: Box<AtomicI64>,
+    memory: Box<Memory>,
     /// Whether callbacks may use AVX2.
     avx2: bool,
 }
 
 impl Device {
-    /// Starts Embree with the instructions of `isa`.
-    pub(super) fn new(isa: Option<Isa>) -> Result<Device> {
+    /// Starts Embree with the instructions and the memory that the options leave it.
+    pub(super) fn new(options: &BuildOptions) -> Result<Device> {
+        let isa = options.isa;
         let threads = rayon::current_num_threads();
         let instructions = match isa {
             None => "",
@@ -87,13 +101,18 @@ impl Device {
                 _ => Error::Accelerator(message),
             });
         }
-        let device = Device { raw, error: Box::default(), bytes: Box::default(), avx2: allows_avx2(isa) };
+        let device = Device {
+            raw,
+            error: Box::default(),
+            memory: Box::new(Memory::new(options)),
+            avx2: allows_avx2(isa),
+        };
         let slot = (&raw const *device.error).cast_mut().cast();
-        let bytes = (&raw const *device.bytes).cast_mut().cast();
+        let memory = (&raw const *device.memory).cast_mut().cast();
         // SAFETY: mutex and counter stay where they are until the drop of `device` takes the callbacks away.
         unsafe {
             rtcSetDeviceErrorFunction(raw, Some(record_error), slot);
-            rtcSetDeviceMemoryMonitorFunction(raw, Some(count_bytes), bytes);
+            rtcSetDeviceMemoryMonitorFunction(raw, Some(count_bytes), memory);
         }
         device.check_version()?;
         Ok(device)
@@ -118,13 +137,21 @@ impl Device {
 
     /// The first failure since the last call; `doing` reads like "building a tree".
     fn check(&self, doing: &str) -> Result<()> {
-        let message = self.error.lock().unwrap_or_else(PoisonError::into_inner).take();
-        message.map_or(Ok(()), |text| Err(Error::Accelerator(format!("Embree failed when {doing}: {text}"))))
+        let failure = self.error.lock().unwrap_or_else(PoisonError::into_inner).take();
+        let Some(Failure { code, text }) = failure else { return Ok(()) };
+        let more = match code {
+            RTC_ERROR_OUT_OF_MEMORY => format!(
+                "; it may take {:.1} GB. Coarser meshes or files that several objects show take less, and so does `--accel native`",
+                self.memory.most as f64 / 1e9
+            ),
+            _ => String::new(),
+        };
+        Err(Error::Accelerator(format!("Embree failed when {doing}: {text}{more}")))
     }
 
     /// Bytes that Embree holds for all scenes of this device: trees, leaves and what its allocator keeps in reserve.
     pub(super) fn bytes(&self) -> usize {
-        usize::try_from(self.bytes.load(Ordering::Relaxed)).unwrap_or(0)
+        usize::try_from(self.memory.bytes.load(Ordering::Relaxed)).unwrap_or(0)
     }
 
     fn new_geometry(&self, kind: RTCGeometryType) -> Result<GeometryHandle> {
@@ -157,7 +184,7 @@ fn allows_avx2(isa: Option<Isa>) -> bool {
 /// Keeps the first error for [`Device::check`].
 unsafe extern "C" fn record_error(slot: *mut c_void, code: RTCError, text: *const c_char) {
     // SAFETY: `slot` is the mutex of a live Device.
-    let error = unsafe { &*slot.cast::<Mutex<Option<String>>>() };
+    let error = unsafe { &*slot.cast::<Mutex<Option<Failure>>>() };
     let details = match text.is_null() {
         true => Default::default(),
         // SAFETY: Embree passes a C string.
@@ -165,15 +192,44 @@ unsafe extern "C" fn record_error(slot: *mut c_void, code: RTCError, text: *cons
     };
     let mut error = error.lock().unwrap_or_else(PoisonError::into_inner);
     let kind = error_text(code);
-    error.get_or_insert_with(|| if details == kind { kind.into() } else { format!("{kind} ({details})") });
+    let text = || if details == kind { kind.into() } else { format!("{kind} ({details})") };
+    error.get_or_insert_with(|| Failure { code, text: text() });
 }
 
-/// Adds what Embree allocates, or frees (a negative number), for [`Device::bytes`]. It may always go on.
-unsafe extern "C" fn count_bytes(slot: *mut c_void, bytes: isize, _post: bool) -> bool {
-    // SAFETY: `slot` is the counter of a live Device.
-    let counter = unsafe { &*slot.cast::<AtomicI64>() };
-    counter.fetch_add(bytes as i64, Ordering::Relaxed);
-    true
+/// Adds what Embree allocates, or frees (a negative number), for [`Device::bytes`]. Where it would be too much, Embree gives
+/// up with [`RTC_ERROR_OUT_OF_MEMORY`] before the system ends the program.
+unsafe extern "C" fn count_bytes(slot: *mut c_void, bytes: isize, post: bool) -> bool {
+    // SAFETY: `slot` is the Memory of a live Device.
+    let memory = unsafe { &*slot.cast::<Memory>() };
+    let before = memory.bytes.fetch_add(bytes as i64, Ordering::Relaxed);
+    let fits = bytes <= 0 || post || before.saturating_add(bytes as i64) <= memory.most;
+    if !fits {
+        // It will not be allocated.
+        memory.bytes.fetch_sub(bytes as i64, Ordering::Relaxed);
+    }
+    fits
+}
+
+impl Memory {
+    fn new(options: &BuildOptions) -> Memory {
+        let most = options.memory.or_else(available_bytes).and_then(|bytes| i64::try_from(bytes).ok());
+        Memory { bytes: AtomicI64::new(0), most: most.unwrap_or(i64::MAX) }
+    }
+}
+
+/// The triangles of a space in words.
+pub(super) fn contents(space: &MeshSpace) -> String {
+    let count = space.triangles.len();
+    let ranges = space.mesh_ranges().map(|(mesh, range)| (range.len(), mesh.object));
+    // Objects are numbered from 1, as in the channel of pictures that names them.
+    match (space.meshes.len(), ranges.max()) {
+        (1, Some((_, object))) => format!("the {count} triangles of object {}", u64::from(object) + 1),
+        (meshes, Some((most, object))) => {
+            let object = u64::from(object) + 1;
+            format!("the {count} triangles of {meshes} objects, of which object {object} has {most}")
+        }
+        _ => format!("{count} triangles"),
+    }
 }
 
 /// A geometry that this side holds a reference to.
@@ -211,7 +267,7 @@ impl<Q> Drop for Scene<'_, Q> {
 
 impl<G: UserGeometry> Scene<'_, G> {
     /// The scene of the boxes of the primitives 0 to `count` - 1.
-    pub(super) fn of_boxes(device: &Device, boxes: &G, count: usize) -> Result<Self> {
+    pub(super) fn of_boxes(device: &Device, boxes: &G, count: usize, over: &str) -> Result<Self> {
         let count = u32::try_from(count)
             .map_err(|_| Error::Accelerator(format!("{count} primitives are more than Embree can hold")))?;
         let geometry = device.new_geometry(RTC_GEOMETRY_TYPE_USER)?;
@@ -224,7 +280,7 @@ impl<G: UserGeometry> Scene<'_, G> {
             rtcSetGeometryIntersectFunction(geometry.raw, callbacks.0);
             rtcSetGeometryOccludedFunction(geometry.raw, callbacks.1);
         }
-        Scene::commit(device, geometry, RTC_SCENE_FLAG_NONE, RTC_BUILD_QUALITY_MEDIUM)
+        Scene::commit(device, geometry, RTC_SCENE_FLAG_NONE, RTC_BUILD_QUALITY_MEDIUM, over)
     }
 }
 
@@ -256,14 +312,21 @@ impl<'g, F: Filter> Scene<'g, F> {
             BvhQuality::Default if robust => RTC_BUILD_QUALITY_MEDIUM,
             BvhQuality::Default | BvhQuality::Quality => RTC_BUILD_QUALITY_HIGH,
         };
-        Scene::commit(device, mesh, if robust { RTC_SCENE_FLAG_ROBUST } else { RTC_SCENE_FLAG_NONE }, quality)
+        let flags = if robust { RTC_SCENE_FLAG_ROBUST } else { RTC_SCENE_FLAG_NONE };
+        Scene::commit(device, mesh, flags, quality, &contents(space))
     }
 }
 
 impl<Q> Scene<'_, Q> {
-    /// Builds the tree over the only geometry of the scene.
-    fn commit(device: &Device, geometry: GeometryHandle, flags: u32, quality: u32) -> Result<Self> {
-        device.check("describing a geometry")?;
+    /// Builds the tree over the only geometry of the scene; `over` says in messages what that is.
+    fn commit(
+        device: &Device,
+        geometry: GeometryHandle,
+        flags: u32,
+        quality: u32,
+        over: &str,
+    ) -> Result<Self> {
+        device.check(&format!("describing {over}"))?;
         // SAFETY: the device is live.
         let raw = unsafe { rtcNewScene(device.raw) };
         device.check("making a scene")?;
@@ -277,7 +340,7 @@ impl<Q> Scene<'_, Q> {
             rtcSetSceneBuildQuality(raw, quality);
             rtcCommitScene(raw);
         }
-        device.check("building the tree")?;
+        device.check(&format!("building the tree over {over}"))?;
         Ok(scene)
     }
 }

@@ -13,7 +13,9 @@ pub(super) struct Solids<'g> {
 
 impl<'g> Solids<'g> {
     pub(super) fn build(device: &Device, geometry: &'g Geometry) -> Result<Solids<'g>> {
-        let scene = Scene::of_boxes(device, &SolidBoxes { geometry }, geometry.tree_solids.len())?;
+        let count = geometry.tree_solids.len();
+        let over = format!("{count} balls, boxes, rectangles and instances");
+        let scene = Scene::of_boxes(device, &SolidBoxes { geometry }, count, &over)?;
         Ok(Solids { scene })
     }
 

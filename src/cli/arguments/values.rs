@@ -1,6 +1,7 @@
 //! Values of options: names in tables, numbers in ranges.
 
 use crate::accel::{BvhQuality, Isa, Precision};
+use crate::film::Region;
 use crate::output::Aov;
 use crate::picture::Depth;
 use crate::render::{AccelKind, FeatureKind, MIN_TIME};
@@ -127,6 +128,32 @@ pub(super) fn size(most: u32) -> impl Fn(&str) -> Result<[u32; 2], String> + Clo
             _ => Err(format!("expected a width and a height from 1 to {most}, such as 320x180")),
         }
     }
+}
+
+/// Parses `I/N`.
+pub(super) fn part(text: &str) -> Result<Region, String> {
+    let numbers =
+        text.split_once('/').and_then(|(index, count)| Some((index.parse().ok()?, count.parse().ok()?)));
+    match numbers {
+        Some((index, count)) if index < count => Ok(Region::Part { index, count }),
+        _ => Err("expected I/N, with I from 0 to N - 1, such as 0/8".to_owned()),
+    }
+}
+
+/// Parses `X0,Y0,X1,Y1`.
+pub(super) fn crop(text: &str) -> Result<Region, String> {
+    let numbers: Option<Vec<u32>> = text.split(',').map(|number| number.parse().ok()).collect();
+    match numbers.as_deref() {
+        Some(&[left, top, right, bottom]) => Ok(Region::Crop { left, top, right, bottom }),
+        _ => Err("expected X0,Y0,X1,Y1 in pixels, such as 0,0,64,48".to_owned()),
+    }
+}
+
+/// Parses `A..B`.
+pub(super) fn chunks(text: &str) -> Result<[u64; 2], String> {
+    let numbers =
+        text.split_once("..").and_then(|(start, end)| Some([start.parse().ok()?, end.parse().ok()?]));
+    numbers.ok_or_else(|| "expected A..B, such as 0..4".to_owned())
 }
 
 pub(super) fn positive(text: &str) -> Result<f64, String> {

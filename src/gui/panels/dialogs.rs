@@ -3,7 +3,9 @@
 use super::commands::HELP;
 use crate::gui::examples::is_scene;
 use crate::gui::studio::Studio;
-use eframe::egui::{Align2, Context, Grid, Id, Key, Modal, ScrollArea, TextEdit, Ui, ViewportCommand, Window};
+use eframe::egui::{
+    Align2, Context, Grid, Id, Key, Modal, ScrollArea, TextEdit, Ui, ViewportCommand, Window,
+};
 use std::env;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -54,7 +56,8 @@ impl Choice {
     /// Looks into the folder.
     fn list(&mut self) {
         let entries = fs::read_dir(&self.folder).into_iter().flatten().flatten().map(|entry| entry.path());
-        let is_hidden = |path: &Path| path.file_name().is_none_or(|name| name.to_string_lossy().starts_with('.'));
+        let is_hidden =
+            |path: &Path| path.file_name().is_none_or(|name| name.to_string_lossy().starts_with('.'));
         let mut all: Vec<PathBuf> = entries.filter(|path| !is_hidden(path)).collect();
         all.sort();
         let is_wanted = |path: &PathBuf| match self.purpose {

@@ -92,7 +92,12 @@ fn fields(ui: &mut Ui, surface: &mut Surface) {
         SurfaceKind::Diffuse => {
             ui.label("Emission");
             let speed = 0.01 * surface.emission_strength.max(1.0);
-            ui.add(DragValue::new(&mut surface.emission_strength).speed(speed).range(0.0..=1e6).clamp_existing_to_range(false));
+            ui.add(
+                DragValue::new(&mut surface.emission_strength)
+                    .speed(speed)
+                    .range(0.0..=1e6)
+                    .clamp_existing_to_range(false),
+            );
             ui.end_row();
             if surface.emission_strength > 0.0 {
                 ui.label("Light");
@@ -108,8 +113,13 @@ fn fields(ui: &mut Ui, surface: &mut Surface) {
         }
         SurfaceKind::Refractive => {
             ui.label("n out / n in");
-            ui.add(DragValue::new(&mut surface.ratio).speed(0.005).range(0.01..=100.0).clamp_existing_to_range(false))
-                .on_hover_text("n outside / n inside: about 0.67 for glass, 0.42 for diamond");
+            ui.add(
+                DragValue::new(&mut surface.ratio)
+                    .speed(0.005)
+                    .range(0.01..=100.0)
+                    .clamp_existing_to_range(false),
+            )
+            .on_hover_text("n outside / n inside: about 0.67 for glass, 0.42 for diamond");
             ui.end_row();
         }
     }

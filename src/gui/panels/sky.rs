@@ -23,7 +23,9 @@ pub(super) fn show(ui: &mut Ui, studio: &mut Studio) {
                 }
             }
             ui.label("Strength");
-            ui.add(DragValue::new(&mut sky.strength).speed(0.01).range(0.0..=1e6).clamp_existing_to_range(false));
+            ui.add(
+                DragValue::new(&mut sky.strength).speed(0.01).range(0.0..=1e6).clamp_existing_to_range(false),
+            );
             ui.end_row();
         });
         studio.edit(|editable| {
@@ -67,7 +69,13 @@ fn picker(ui: &mut Ui, color: &mut Rgb) {
 fn components(ui: &mut Ui, color: &mut Rgb, most: f64) {
     let mut values = color.to_array();
     for value in &mut values {
-        ui.add(DragValue::new(value).speed(0.005).range(0.0..=most).clamp_existing_to_range(false).max_decimals(3));
+        ui.add(
+            DragValue::new(value)
+                .speed(0.005)
+                .range(0.0..=most)
+                .clamp_existing_to_range(false)
+                .max_decimals(3),
+        );
     }
     if values != color.to_array() {
         *color = Rgb::from_array(values);

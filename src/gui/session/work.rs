@@ -6,7 +6,7 @@ use crate::error::Result;
 use crate::geometry::Geometry;
 use crate::math::Rgb;
 use crate::output::{Provenance, Target, Wanted};
-use crate::render::{Ended, Prepared, Rendered, Settings, in_pool};
+use crate::render::{Ended, Prepared, Rendered, Settings, View, in_pool};
 use crate::scene::desc::MaterialKind;
 use crate::scene::edit::{self, Editable};
 use crate::scene::{self, Digest};
@@ -116,8 +116,7 @@ fn has_same_surfaces(a: &Editable, b: &Editable) -> bool {
 /// Whether the shapes of a scene compile to the same: a mesh that emits light gets triangles of its own.
 fn has_same_shapes(a: &Editable, b: &Editable) -> bool {
     let emits = |editable: &Editable| -> Vec<bool> {
-        let of_kind =
-            |kind| matches!(kind, MaterialKind::Diffuse { emission, .. } if emission != Rgb::ZERO);
+        let of_kind = |kind| matches!(kind, MaterialKind::Diffuse { emission, .. } if emission != Rgb::ZERO);
         let surfaces = editable.surfaces.iter();
         surfaces.map(|surface| surface.as_ref().is_some_and(|surface| of_kind(surface.material()))).collect()
     };
@@ -179,11 +178,12 @@ fn conclude(shared: &Shared, task: &Task, rendered: &Rendered) {
 /// Writes a final picture, as the command line does.
 fn write(target: &Target, task: &Task, rendered: &Rendered) -> Result<Option<PathBuf>> {
     let Some(digest) = task.digest else { return Ok(None) };
+    let (width, height) = (task.order.settings.width, task.order.settings.height);
+    let view = View::new(&task.world, &task.order.editable.camera, width, height);
     let provenance = Provenance {
         scene: &task.order.loaded.path,
         digest,
-        camera: &task.order.editable.camera,
-        world: &task.world,
+        view: &view,
         settings: &task.order.settings,
         samples: rendered.film.samples(),
         is_clamped: rendered.counters.clamped > 0,

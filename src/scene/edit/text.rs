@@ -194,7 +194,8 @@ struct Owned(String);
 impl Owned {
     fn set(self, section: &[Step], key: &str, value: Written, after: &str) -> Result<String> {
         let source = crate::scene::source::Source::new(std::path::Path::new(""), &self.0);
-        let root = crate::scene::yaml::parse(&source).map_err(|diagnostic| Error::Scene(vec![*diagnostic]))?;
+        let root =
+            crate::scene::yaml::parse(&source).map_err(|diagnostic| Error::Scene(vec![*diagnostic]))?;
         Editor { text: &self.0, root: &root }.set(section, key, value, after)
     }
 }
@@ -244,7 +245,8 @@ fn plain(node: &Node<'_>) -> Option<String> {
             format!("[{}]", items?.join(", "))
         }
         Kind::Map(entries) => {
-            let entry = |(name, node): &(Node<'_>, Node<'_>)| Some(format!("{}: {}", plain(name)?, plain(node)?));
+            let entry =
+                |(name, node): &(Node<'_>, Node<'_>)| Some(format!("{}: {}", plain(name)?, plain(node)?));
             format!("{{{}}}", entries.iter().map(entry).collect::<Option<Vec<_>>>()?.join(", "))
         }
         Kind::Tagged(_) => return None,

@@ -1,0 +1,178 @@
+//! `pathtracer farm`: a render in parts as a job of an engine that exists.
+
+use super::arguments::{FarmArguments, FarmCommand, Job};
+use super::saving;
+use crate::error::{Error, Result};
+use crate::film::Region;
+use crate::picture::Destination;
+use crate::render::{Recipe, Settings, in_pool};
+use crate::scene;
+use std::io::{self, Write};
+use std::path::Path;
+
+/// Prints the job; returns the exit code.
+pub(super) fn run(command: FarmCommand) -> anyhow::Result<u8> {
+    let text = match command {
+        FarmCommand::Export(arguments) => template(&Farm::new(*arguments)?),
+        FarmCommand::Slurm(arguments) => script(&Farm::new(*arguments)?)?,
+    };
+    io::stdout().lock().write_all(text.as_bytes())?;
+    Ok(0)
+}
+
+/// A render in parts.
+struct Farm {
+    job: Job,
+    recipe: Recipe,
+    parts: u32,
+    folder: String,
+}
+
+impl Farm {
+    /// Whatever can be known to fail fails here, not on the farm.
+    fn new(arguments: FarmArguments) -> anyhow::Result<Farm> {
+        let (job, parts, folder) = arguments.resolve()?;
+        job.settings.check()?;
+        if saving::is_part(&job) || job.settings.time.is_some() {
+            let why = "farm cuts the picture itself: leave out --part, --crop, --chunks and --time";
+            return Err(Error::Usage(why.into()).into());
+        }
+        let region = Region::Part { index: 0, count: parts };
+        Settings { region, ..job.settings.clone() }.check()?;
+        Destination::new(&job.image)?;
+        let scene = in_pool(&job.settings, || scene::load(&job.scene))?;
+        let recipe = Recipe::new(&job.scene, scene.digest, &job.settings)?;
+        Ok(Farm { job, recipe, parts, folder: folder.to_string_lossy().into_owned() })
+    }
+
+    /// The arguments of a task, after the program: the scene, the file and the number of the part are given.
+    fn task(&self, scene: &str, file: &str, part: &str) -> Vec<String> {
+        let mut words = self.recipe.arguments(file);
+        scene.clone_into(&mut words[0]);
+        words.extend(["--part".into(), format!("{part}/{}", self.parts)]);
+        if let Some(threads) = self.job.settings.threads {
+            words.extend(["--threads".into(), threads.to_string()]);
+        }
+        words
+    }
+
+    /// The arguments of the last task.
+    fn merge(&self, folder: &str, image: &str) -> Vec<String> {
+        let mut words = vec!["merge".to_owned()];
+        words.extend((0..self.parts).map(|part| format!("{folder}/part-{part}.film")));
+        words.push(image.to_owned());
+        words.extend(picture_options(&self.job));
+        words
+    }
+}
+
+/// The options of a render that only say how its picture is written.
+fn picture_options(job: &Job) -> Vec<String> {
+    let features: Vec<&str> = job.aov.iter().map(|kind| kind.name()).collect();
+    let bars = job.error_bars.as_ref().map(|path| path.to_string_lossy().into_owned());
+    let all = [
+        ("--exposure", (job.exposure != 0.0).then(|| job.exposure.to_string())),
+        ("--depth", job.depth.map(|depth| depth.name().to_owned())),
+        ("--aov", (!features.is_empty()).then(|| features.join(","))),
+        ("--error-bars", bars),
+    ];
+    let given = all.into_iter().filter_map(|(option, value)| Some([option.to_owned(), value?]));
+    given.flatten().chain(job.denoise.then(|| "--denoise".to_owned())).collect()
+}
+
+/// The template of Open Job Description.
+fn template(farm: &Farm) -> String {
+    let Farm { job, parts, folder, .. } = farm;
+    let list = |words: Vec<String>| words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(", ");
+    let file = "{{Param.Folder}}/part-{{Task.Param.Part}}.film";
+    let mut task = farm.task("{{Param.Scene}}", file, "{{Task.Param.Part}}");
+    task.extend(["--progress".into(), "openjd".into()]);
+    let merge = farm.merge("{{Param.Folder}}", "{{Param.Image}}");
+    let name = job.scene.file_stem().unwrap_or_default().to_string_lossy().replace(['{', '}'], "_");
+    format!(
+        "specificationVersion: jobtemplate-2023-09
+name: {name}
+parameterDefinitions:
+  - {{name: Program, type: STRING, default: pathtracer}}
+  - {{name: Scene, type: PATH, objectType: FILE, dataFlow: IN, default: {scene}}}
+  - {{name: Image, type: PATH, objectType: FILE, dataFlow: OUT, default: {image}}}
+  - {{name: Folder, type: PATH, objectType: DIRECTORY, dataFlow: INOUT, default: {folder}}}
+steps:
+  - name: Parts
+    parameterSpace:
+      taskParameterDefinitions: [{{name: Part, type: INT, range: \"0-{last}\"}}]
+    script:
+      actions:
+        onRun:
+          command: \"{{{{Param.Program}}}}\"
+          args: [{task}]
+          cancelation: {{mode: NOTIFY_THEN_TERMINATE, notifyPeriodInSeconds: 60}}
+  - name: Merge
+    dependencies: [{{dependsOn: Parts}}]
+    script:
+      actions:
+        onRun:
+          command: \"{{{{Param.Program}}}}\"
+          args: [{merge}]
+",
+        name = quoted(&format!("pathtracer {name}")),
+        scene = quoted(&job.scene.to_string_lossy()),
+        image = quoted(&job.image.to_string_lossy()),
+        folder = quoted(folder),
+        last = parts - 1,
+        task = list(task),
+        merge = list(merge),
+    )
+}
+
+/// A string as JSON has it, which YAML reads too.
+fn quoted(text: &str) -> String {
+    serde_json::Value::from(text).to_string()
+}
+
+/// A shell script with the two calls of sbatch.
+fn script(farm: &Farm) -> Result<String> {
+    let program = std::env::current_exe().map_err(|source| Error::Io {
+        action: "find".into(),
+        path: Path::new("pathtracer").into(),
+        source,
+    })?;
+    let program = shell(&program.to_string_lossy());
+    let line = |words: Vec<String>| words.iter().map(|word| shell(word)).collect::<Vec<_>>().join(" ");
+    let scene = farm.job.scene.to_string_lossy();
+    // The array's index stays a variable of the task's shell.
+    let index = "SLURM_ARRAY_TASK_ID_";
+    let file = format!("{}/part-{index}.film", farm.folder);
+    let mut task = line(farm.task(&scene, &file, index));
+    task = task.replace(index, "'\"$SLURM_ARRAY_TASK_ID\"'");
+    let merge = line(farm.merge(&farm.folder, &farm.job.image.to_string_lossy()));
+    let threads =
+        farm.job.settings.threads.map(|threads| format!(" --cpus-per-task={threads}")).unwrap_or_default();
+    Ok(format!(
+        "#!/bin/sh
+# {parts} parts and the merge, for Slurm. A part that is killed is requeued and goes on from its last checkpoint; to run
+# this again makes only what is missing.
+set -e
+parts=$(sbatch --parsable --job-name=pathtracer --array=0-{last} --requeue --signal=B:TERM@60{threads} <<'EOF'
+#!/bin/sh
+exec {program} {task} --quiet
+EOF
+)
+sbatch --job-name=pathtracer-merge --dependency=\"afterok:$parts\" --kill-on-invalid-dep=yes <<'EOF'
+#!/bin/sh
+exec {program} {merge}
+EOF
+",
+        parts = farm.parts,
+        last = farm.parts - 1,
+    ))
+}
+
+/// A word as the shell takes it.
+fn shell(word: &str) -> String {
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./,=+:@%".contains(c);
+    if !word.is_empty() && word.chars().all(is_plain) && !word.contains("SLURM") {
+        return word.to_owned();
+    }
+    format!("'{}'", word.replace('\'', "'\\''"))
+}

@@ -1,0 +1,54 @@
+//! `pathtracer farm`: what is printed. `tests/farm` runs it on the real engines.
+
+use super::Folder;
+
+const FARM: &str = "--parts 3 ball.yaml 40 36 20 4 out.exr --seed 2";
+
+#[test]
+fn the_template_has_a_task_a_part_and_a_merge() {
+    let folder = Folder::new();
+    let ended = folder.run(&format!("farm export {FARM} --exposure 1"));
+    ended.succeeds();
+    for part in [
+        "specificationVersion: jobtemplate-2023-09",
+        "range: \"0-2\"",
+        "\"--part\", \"{{Task.Param.Part}}/3\"",
+        "\"--seed\", \"2\"",
+        "\"merge\", \"{{Param.Folder}}/part-0.film\"",
+        "\"--exposure\", \"1\"",
+    ] {
+        assert!(ended.stdout.contains(part), "{part}: {}", ended.stdout);
+    }
+}
+
+#[test]
+fn the_script_has_an_array_and_a_dependent_merge() {
+    let folder = Folder::new();
+    let ended = folder.run(&format!("farm slurm {FARM}"));
+    ended.succeeds();
+    for part in ["--array=0-2", "--requeue", "--dependency=\"afterok:$parts\"", "out.exr.parts/part-2.film"] {
+        assert!(ended.stdout.contains(part), "{part}: {}", ended.stdout);
+    }
+}
+
+#[test]
+fn jobs_that_cannot_be_are_refused() {
+    let folder = Folder::new();
+    folder.run("farm export --parts 3 missing.yaml 40 36 20 4 out.exr").fails(3, "missing.yaml");
+    folder
+        .run("farm export --parts 1000 ball.yaml 40 36 20 4 out.exr")
+        .fails(2, "make as many parts at most");
+    folder.run(&format!("farm slurm {FARM} --part 0/2")).fails(2, "farm cuts the picture itself");
+    folder.run("farm slurm ball.yaml 40 36 20 4 out.exr").fails(2, "--parts");
+}
+
+#[test]
+fn progress_is_printed_as_open_job_description_has_it() {
+    let folder = Folder::new();
+    let ended = folder.run("missing.yaml 8 6 1 3 a.png --progress openjd");
+    ended.fails(3, "missing.yaml");
+    assert!(ended.stdout.starts_with("openjd_fail: "), "{}", ended.stdout);
+    let ended = folder.run("ball.yaml 256 256 60 4 a.png --progress openjd -q");
+    ended.succeeds();
+    assert!(ended.stdout.lines().all(|line| line.starts_with("openjd_")), "{}", ended.stdout);
+}

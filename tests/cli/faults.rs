@@ -1,0 +1,111 @@
+//! Disks that fail and signals: the render is not lost, and no half file is left.
+#![cfg(unix)]
+
+use super::Folder;
+use std::fs;
+use std::io::{BufRead, BufReader};
+use std::os::unix::fs::PermissionsExt;
+use std::process::{Command, Stdio};
+
+/// Runs a render and changes its folder once it is under way; how it ended.
+fn change_while_rendering(folder: &Folder, arguments: &str, change: impl FnOnce()) -> super::Ended {
+    let mut command = folder.command(arguments);
+    let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("a child");
+    let mut reader = BufReader::new(child.stdout.take().expect("a pipe"));
+    let mut line = String::new();
+    while reader.read_line(&mut line).expect("a line") > 0 && !line.contains("\"start\"") {
+        line.clear();
+    }
+    change();
+    super::Ended::from(child.wait_with_output().expect("an end"))
+}
+
+#[test]
+fn a_folder_that_vanishes_does_not_cost_the_film() {
+    let folder = Folder::new();
+    fs::create_dir(folder.path("out")).expect("a folder");
+    let render = "ball.yaml 64 48 3000 4";
+    let ended = change_while_rendering(&folder, &format!("{render} out/a.exr --json"), || {
+        fs::remove_dir_all(folder.path("out")).expect("no folder");
+    });
+    ended.fails(1, "the finished film is kept: `pathtracer merge a.exr.film out/a.exr`");
+    folder.run("merge a.exr.film b.exr -q").succeeds();
+    folder.run(&format!("{render} c.exr -q")).succeeds();
+    assert!(folder.read("b.exr") == folder.read("c.exr"));
+}
+
+#[test]
+fn what_stands_in_the_way_is_found_before_the_render() {
+    let folder = Folder::new();
+    fs::create_dir(folder.path("a.png")).expect("a folder");
+    folder.run("ball.yaml 8 6 1 3 a.png").fails(1, "a.png");
+    folder.run("ball.yaml 8 6 1 3 missing/a.png").fails(1, "missing/a.png");
+    fs::create_dir(folder.path("closed")).expect("a folder");
+    let closed = fs::Permissions::from_mode(0o555);
+    fs::set_permissions(folder.path("closed"), closed).expect("permissions");
+    // To root every folder is open.
+    if fs::write(folder.path("closed/test"), "").is_err() {
+        folder.run("ball.yaml 8 6 1 3 closed/a.png").fails(1, "closed/a.png");
+    }
+    assert!(!folder.has("closed/a.png"));
+}
+
+#[test]
+fn a_second_signal_ends_at_once_and_leaves_no_half_file() {
+    for (signal, code) in [("INT", 130), ("TERM", 143)] {
+        let folder = Folder::new();
+        let render = "ball.yaml 64 48 4294967296 3 a.png --json --checkpoint a.film";
+        let mut child = folder.command(render).stdout(Stdio::piped()).spawn().expect("a child");
+        let mut reader = BufReader::new(child.stdout.take().expect("a pipe"));
+        let mut line = String::new();
+        while reader.read_line(&mut line).expect("a line") > 0 && !line.contains("\"progress\"") {
+            line.clear();
+        }
+        let words = format!("kill -s {signal} {0}; kill -s {signal} {0}", child.id());
+        assert!(Command::new("sh").args(["-c", &words]).status().expect("a shell").success());
+        assert_eq!(child.wait().expect("an end").code(), Some(code));
+        // The picture may have been written before the second one came; half of one never.
+        if folder.has("a.png") {
+            image::open(folder.path("a.png")).expect("a whole picture");
+        }
+        assert!(folder.names().iter().all(|name| !name.ends_with(".part")), "{:?}", folder.names());
+    }
+}
+
+#[test]
+fn an_interrupted_part_goes_on_where_it_was() {
+    let folder = Folder::new();
+    let render = "ball.yaml 64 48 8000 4";
+    let command = format!("{render} a.film --part 0/1 --json");
+    let mut child =
+        folder.command(&command).stdout(Stdio::piped()).stderr(Stdio::null()).spawn().expect("a child");
+    let mut reader = BufReader::new(child.stdout.take().expect("a pipe"));
+    let mut line = String::new();
+    while reader.read_line(&mut line).expect("a line") > 0 && !line.contains("\"progress\"") {
+        line.clear();
+    }
+    // It may have ended already.
+    let words = format!("kill -s TERM {}", child.id());
+    let _ = Command::new("sh").args(["-c", &words]).stderr(Stdio::null()).status();
+    let code = child.wait().expect("an end").code();
+    if code == Some(143) && folder.has("a.film") {
+        folder.run("merge a.film a.exr").fails(1, "is an unfinished render, not a part");
+    }
+    folder.run(&format!("{render} a.film --part 0/1 -q")).succeeds();
+    folder.run("merge a.film a.exr -q").succeeds();
+    folder.run(&format!("{render} b.exr -q")).succeeds();
+    assert!(folder.read("a.exr") == folder.read("b.exr"));
+}
+
+#[test]
+fn a_mesh_that_memory_cannot_hold_is_refused_before_it_is_read() {
+    let folder = Folder::new();
+    let scene = fs::read_to_string(folder.path("ball.yaml")).expect("a scene");
+    let mesh =
+        "  - Object: {Type: TriangleMesh, Filepath: a.obj, Position: [5, 0, 0], Material: {Type: Diffuse}}\n";
+    folder.write("mesh.yaml", &format!("{scene}{mesh}"));
+    // A file with a hole takes no room on the disk.
+    let file = fs::File::create(folder.path("a.obj")).expect("a file");
+    file.set_len(1 << 42).expect("a hole");
+    folder.run("mesh.yaml 8 6 1 3 a.png").fails(3, "a mesh of 4398.0 GB");
+}
