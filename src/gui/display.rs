@@ -57,6 +57,15 @@ pub struct Request {
 }
 
 impl Request {
+    /// Whether the frame does not know yet what is to be shown.
+    fn is_early(&self) -> bool {
+        match self.view {
+            View::Picture | View::Samples => false,
+            View::Error => self.frame.errors.is_none(),
+            View::Albedo | View::Normals | View::Depth => self.frame.look.is_none(),
+        }
+    }
+
     fn is_same(&self, other: &Request) -> bool {
         Arc::ptr_eq(&self.frame, &other.frame)
             && self.view == other.view
@@ -106,10 +115,14 @@ impl Shared {
                     None => state = self.wake.wait(state).unwrap_or_else(PoisonError::into_inner),
                 }
             };
+            let is_early = request.is_early() && state.shown.is_some();
             drop(state);
-            let shown = Arc::new(show(request));
-            self.lock().shown = Some(shown);
-            (self.notify)();
+            // The picture before is better than none.
+            if !is_early {
+                let shown = Arc::new(show(request));
+                self.lock().shown = Some(shown);
+                (self.notify)();
+            }
         }
     }
 }
@@ -236,14 +249,20 @@ fn relative(frame: &Frame, pixel: usize) -> Option<f64> {
 /// The root of the mean of the squares of [`relative`].
 fn relative_error(frame: &Frame) -> Option<f64> {
     let pixels = frame.light.len();
-    let squares: Option<f64> = (0..pixels).map(|pixel| relative(frame, pixel).map(|error| error * error)).sum();
+    let squares: Option<f64> =
+        (0..pixels).map(|pixel| relative(frame, pixel).map(|error| error * error)).sum();
     Some((squares? / pixels.max(1) as f64).sqrt())
 }
 
 /// Colours from dark blue over green to yellow, ever brighter, so that they can be told apart without seeing colours.
 pub fn ramp(share: f64) -> [u8; 3] {
-    const STOPS: [[f64; 3]; 5] =
-        [[20.0, 12.0, 70.0], [50.0, 70.0, 140.0], [40.0, 140.0, 130.0], [120.0, 200.0, 80.0], [250.0, 230.0, 50.0]];
+    const STOPS: [[f64; 3]; 5] = [
+        [20.0, 12.0, 70.0],
+        [50.0, 70.0, 140.0],
+        [40.0, 140.0, 130.0],
+        [120.0, 200.0, 80.0],
+        [250.0, 230.0, 50.0],
+    ];
     let place = share.clamp(0.0, 1.0) * (STOPS.len() - 1) as f64;
     let index = (place as usize).min(STOPS.len() - 2);
     let (low, high, part) = (STOPS[index], STOPS[index + 1], place - index as f64);

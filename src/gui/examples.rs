@@ -8,8 +8,12 @@ use std::path::{Path, PathBuf};
 pub fn find() -> Vec<PathBuf> {
     let here = env::current_dir().ok();
     let program = env::current_exe().ok();
-    let folders = here.iter().map(PathBuf::as_path).chain(program.iter().flat_map(|program| program.ancestors()));
-    folders.map(|folder| scenes_in(&folder.join("scenes"))).find(|scenes| !scenes.is_empty()).unwrap_or_default()
+    let folders =
+        here.iter().map(PathBuf::as_path).chain(program.iter().flat_map(|program| program.ancestors()));
+    folders
+        .map(|folder| scenes_in(&folder.join("scenes")))
+        .find(|scenes| !scenes.is_empty())
+        .unwrap_or_default()
 }
 
 /// The scene files of a folder, by name.

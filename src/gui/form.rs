@@ -66,7 +66,9 @@ impl Field {
     pub const fn help(self) -> &'static str {
         match self {
             Field::Width | Field::Height => "Pixels of the picture",
-            Field::Samples => "Samples per pixel; with a noise target or a time budget the most, 0 for no limit",
+            Field::Samples => {
+                "Samples per pixel; with a noise target or a time budget the most, 0 for no limit"
+            }
             Field::Bounces => "Longest path in ray segments; 1 shows only lights and the sky",
             Field::Noise => {
                 "Relative error at which blocks of the final picture stop, such as 0.02; empty: all take the samples"
@@ -201,7 +203,13 @@ impl Form {
     }
 
     /// Types into a field.
-    pub fn type_text(&mut self, field: Field, text: &str, knobs: &mut Knobs, camera: &mut CameraDesc) -> bool {
+    pub fn type_text(
+        &mut self,
+        field: Field,
+        text: &str,
+        knobs: &mut Knobs,
+        camera: &mut CameraDesc,
+    ) -> bool {
         let error = field.write(text, knobs, camera).err();
         let is_right = error.is_none();
         self.drafts.insert(field, Draft { text: text.to_owned(), error });

@@ -134,10 +134,14 @@ impl Knobs {
     /// The arguments of the command line that render the same.
     pub fn command(&self, scene: &Path) -> String {
         let mut words = vec!["pathtracer".to_owned(), quoted(&scene.to_string_lossy())];
-        words.extend([u64::from(self.width), u64::from(self.height), self.samples, self.bounces.into()].map(|n| n.to_string()));
+        words.extend(
+            [u64::from(self.width), u64::from(self.height), self.samples, self.bounces.into()]
+                .map(|n| n.to_string()),
+        );
         words.push(quoted(&self.image));
         let default = Knobs::default();
-        let mut option = |name: &str, value: Option<String>| words.extend(value.map(|value| format!("--{name} {value}")));
+        let mut option =
+            |name: &str, value: Option<String>| words.extend(value.map(|value| format!("--{name} {value}")));
         option("accel", (self.accel != default.accel).then(|| self.accel.name().into()));
         option("precision", (self.precision != default.precision).then(|| self.precision.name().into()));
         option("sampler", (self.sampler != default.sampler).then(|| self.sampler.to_string()));
@@ -151,7 +155,11 @@ impl Knobs {
 /// A word for a shell.
 fn quoted(word: &str) -> String {
     let is_plain = |c: char| c.is_alphanumeric() || "/._-+,@%".contains(c);
-    if !word.is_empty() && word.chars().all(is_plain) { word.into() } else { format!("'{}'", word.replace('\'', "'\\''")) }
+    if !word.is_empty() && word.chars().all(is_plain) {
+        word.into()
+    } else {
+        format!("'{}'", word.replace('\'', "'\\''"))
+    }
 }
 
 /// How the window looks.
@@ -203,7 +211,8 @@ impl Kept {
     /// What was kept; the default where that can't be read.
     pub fn load() -> Kept {
         let text = file().and_then(|file| fs::read_to_string(file).ok());
-        text.and_then(|text| serde_json::from_str(&text).ok()).map_or_else(Kept::default, |value| Kept::of(&value))
+        text.and_then(|text| serde_json::from_str(&text).ok())
+            .map_or_else(Kept::default, |value| Kept::of(&value))
     }
 
     /// Keeps it. A folder that can't be written keeps nothing, which harms nobody.
@@ -211,7 +220,8 @@ impl Kept {
         let Some(file) = file() else { return };
         let _ = file.parent().map(fs::create_dir_all);
         let partial = file.with_extension(format!("{}.part", std::process::id()));
-        let _ = fs::write(&partial, format!("{:#}\n", self.value())).and_then(|()| fs::rename(&partial, &file));
+        let _ =
+            fs::write(&partial, format!("{:#}\n", self.value())).and_then(|()| fs::rename(&partial, &file));
     }
 
     /// Puts a scene at the head of the list.

@@ -79,7 +79,11 @@ impl Target {
 
     /// Writes the means of a render that goes on, R G B, row by row. Errors: as [`Target::write`].
     pub fn write_light(&self, provenance: &Provenance<'_>, light: &[f64]) -> Result<()> {
-        self.write_to(&self.picture, light, &Made { provenance, features: None, seconds: 0.0, denoiser: None })
+        self.write_to(
+            &self.picture,
+            light,
+            &Made { provenance, features: None, seconds: 0.0, denoiser: None },
+        )
     }
 
     fn write_to(&self, destination: &Destination, light: &[f64], made: &Made<'_>) -> Result<()> {
@@ -96,8 +100,9 @@ impl Target {
     /// What the picture's file says.
     fn metadata(&self, destination: &Destination, made: &Made<'_>) -> Metadata {
         let mut metadata = made.provenance.metadata(destination);
-        let mut own =
-            |name: &str, value: String| metadata.push(format!("{}{name}", output::PREFIX), Value::Text(value));
+        let mut own = |name: &str, value: String| {
+            metadata.push(format!("{}{name}", output::PREFIX), Value::Text(value))
+        };
         if let Some(denoiser) = made.denoiser {
             own("denoised", format!("oidn-{}", denoiser.version()));
         }

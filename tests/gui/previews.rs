@@ -11,7 +11,10 @@ use pathtracer::scene::edit::{self, Editable};
 /// Moves the camera, a colour or the light of the scene `BALLS`.
 fn change(editable: &mut Editable, random: &mut Random) {
     match (random.unit() * 4.0) as u32 {
-        0 => camera_control::orbit(&mut editable.camera, [random.between(-0.2, 0.2), random.between(-0.1, 0.1)]),
+        0 => camera_control::orbit(
+            &mut editable.camera,
+            [random.between(-0.2, 0.2), random.between(-0.1, 0.1)],
+        ),
         1 => camera_control::dolly(&mut editable.camera, random.between(0.9, 1.1)),
         2 => {
             let surface = editable.surfaces[1].as_mut().expect("a material of its own");
@@ -171,8 +174,7 @@ fn the_error_that_is_shown_is_near_the_error() {
     let pixels = 0..rough.light.len();
     let told = mean_square(&mut pixels.clone().map(|pixel| f64::from(rough.error(pixel).expect("an error"))));
     let grey = |light: Rgb| light.element_sum() / 3.0;
-    let true_error =
-        mean_square(&mut pixels.map(|pixel| grey(rough.light[pixel]) - grey(fine.light[pixel])));
+    let true_error = mean_square(&mut pixels.map(|pixel| grey(rough.light[pixel]) - grey(fine.light[pixel])));
     // Pairs of Sobol points that halve the error better than chance tell too much of it; factors are of squares, over 1296
     // pixels of one degree of freedom each, whose relative spread is (2 / 1296)^0.5 = 4 % times the spread of their sizes.
     let ratio = told / true_error;

@@ -121,7 +121,8 @@ fn a_camera_does_not_come_to_look_at_itself() {
 
 #[test]
 fn the_command_line_of_the_window_says_what_differs_from_its_defaults() {
-    let knobs = Knobs { noise: Some(0.05), precision: Precision::Fast, image: "a b.png".into(), ..Knobs::default() };
+    let knobs =
+        Knobs { noise: Some(0.05), precision: Precision::Fast, image: "a b.png".into(), ..Knobs::default() };
     let command = knobs.command(Path::new("scene.yaml"));
     assert_eq!(command, "pathtracer scene.yaml 1280 720 256 20 'a b.png' --precision fast --noise 0.05");
 }

@@ -1,5 +1,6 @@
 use super::{Desk, load, preview, session, small};
 use crate::support::random::Random;
+use eframe::egui::{Rect, Vec2, pos2};
 use pathtracer::gui::camera_control as control;
 use pathtracer::gui::display::{Request, View, ramp, show};
 use pathtracer::gui::forecast::forecasts;
@@ -13,7 +14,6 @@ use pathtracer::output::{quantize, srgb_encode};
 use pathtracer::render::{Outlook, Settings};
 use pathtracer::scene::desc::CameraDesc;
 use std::sync::Arc;
-use eframe::egui::{Rect, Vec2, pos2};
 
 fn frame() -> Arc<Frame> {
     let desk = Desk::new();

@@ -53,7 +53,9 @@ impl Screen {
             .spawn()
             .expect("Xvfb starts");
         let mut number = String::new();
-        BufReader::new(server.stdout.take().expect("a pipe")).read_line(&mut number).expect("a display's number");
+        BufReader::new(server.stdout.take().expect("a pipe"))
+            .read_line(&mut number)
+            .expect("a display's number");
         let display = format!(":{}", number.trim());
         let kept = json!({
             "width": 160, "height": 90, "samples": samples, "bounces": 8, "accelerator": "native",

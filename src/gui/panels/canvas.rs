@@ -7,8 +7,8 @@ use crate::gui::pick::Tool;
 use crate::gui::session::Frame;
 use crate::gui::studio::Studio;
 use eframe::egui::{
-    Align2, Color32, CursorIcon, FontId, Modifiers, Painter, PointerButton, Pos2, Rect, Response, Sense, Stroke,
-    TextureHandle, TextureOptions, Ui, Vec2, pos2, vec2,
+    Align2, Color32, CursorIcon, FontId, Modifiers, Painter, PointerButton, Pos2, Rect, Response, Sense,
+    Stroke, TextureHandle, TextureOptions, Ui, Vec2, pos2, vec2,
 };
 use std::sync::Arc;
 use std::time::Duration;
@@ -54,7 +54,8 @@ impl Layer {
 
     fn paint(&self, painter: &Painter, rect: Rect, share: std::ops::Range<f32>) {
         if let Some(texture) = &self.texture {
-            let (left, right) = (rect.left() + rect.width() * share.start, rect.left() + rect.width() * share.end);
+            let (left, right) =
+                (rect.left() + rect.width() * share.start, rect.left() + rect.width() * share.end);
             let part = Rect::from_min_max(pos2(left, rect.top()), pos2(right, rect.bottom()));
             let uv = Rect::from_min_max(pos2(share.start, 0.0), pos2(share.end, 1.0));
             painter.image(texture.id(), part, uv, Color32::WHITE);
@@ -127,7 +128,8 @@ impl Canvas {
         let modifiers = ui.ctx().input(|input| input.modifiers);
         self.wheel(ui, response, place, studio, modifiers);
         if response.drag_started()
-            && let (Some(share), Some(at)) = (studio.wipe, ui.ctx().input(|input| input.pointer.press_origin()))
+            && let (Some(share), Some(at)) =
+                (studio.wipe, ui.ctx().input(|input| input.pointer.press_origin()))
         {
             self.is_wiping = (at.x - (rect.left() + share * rect.width())).abs() < 8.0;
         }
@@ -162,7 +164,14 @@ impl Canvas {
         studio.form.clear();
     }
 
-    fn wheel(&mut self, ui: &Ui, response: &Response, place: Rect, studio: &mut Studio, modifiers: Modifiers) {
+    fn wheel(
+        &mut self,
+        ui: &Ui,
+        response: &Response,
+        place: Rect,
+        studio: &mut Studio,
+        modifiers: Modifiers,
+    ) {
         let Some(at) = response.hover_pos() else { return };
         let (scroll, zoom) = ui.ctx().input(|input| (input.smooth_scroll_delta().y, input.zoom_delta()));
         if zoom != 1.0 {

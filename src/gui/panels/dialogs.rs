@@ -3,7 +3,9 @@
 use super::commands::HELP;
 use crate::gui::examples::is_scene;
 use crate::gui::studio::Studio;
-use eframe::egui::{Align2, Context, Grid, Id, Key, Modal, ScrollArea, TextEdit, Ui, ViewportCommand, Window};
+use eframe::egui::{
+    Align2, Context, Grid, Id, Key, Modal, ScrollArea, TextEdit, Ui, ViewportCommand, Window,
+};
 use std::env;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -54,7 +56,8 @@ impl Choice {
     /// Looks into the folder.
     fn list(&mut self) {
         let entries = fs::read_dir(&self.folder).into_iter().flatten().flatten().map(|entry| entry.path());
-        let is_hidden = |path: &Path| path.file_name().is_none_or(|name| name.to_string_lossy().starts_with('.'));
+        let is_hidden =
+            |path: &Path| path.file_name().is_none_or(|name| name.to_string_lossy().starts_with('.'));
         let mut all: Vec<PathBuf> = entries.filter(|path| !is_hidden(path)).collect();
         all.sort();
         let is_wanted = |path: &PathBuf| match self.purpose {
@@ -100,7 +103,9 @@ impl Choice {
             }
         });
         ui.horizontal(|ui| {
-            let edit = ui.add(TextEdit::singleline(&mut self.name).id_salt("name").desired_width(300.0));
+            let label = ui.label("Name");
+            let edit = TextEdit::singleline(&mut self.name).id_salt("name").desired_width(280.0);
+            let edit = ui.add(edit).labelled_by(label.id);
             if std::mem::take(&mut self.is_new) {
                 edit.request_focus();
             }
@@ -134,7 +139,7 @@ pub struct Dialogs {
 impl Dialogs {
     /// Whether one of them has the keyboard.
     pub fn is_any_open(&self) -> bool {
-        self.choice.is_some() || self.is_closing
+        self.choice.is_some() || self.is_closing || self.is_help_open
     }
 
     /// Asks for a scene.
@@ -217,6 +222,7 @@ impl Dialogs {
             ui.horizontal(|ui| {
                 if ui.button("Save and close").clicked() {
                     studio.save_scene(None);
+                    studio.finish_saving();
                     self.may_close = !studio.is_edited();
                     self.is_closing = false;
                 }

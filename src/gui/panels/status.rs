@@ -61,7 +61,9 @@ fn stage(status: &Status) -> String {
         Stage::Rendering => format!("{what}: rendering"),
         Stage::Paused => format!("{what}: paused"),
         Stage::Done(Ended::Complete) => format!("{what}: done"),
-        Stage::Done(Ended::OutOfSamples) => format!("{what}: done, the noise target was not reached everywhere"),
+        Stage::Done(Ended::OutOfSamples) => {
+            format!("{what}: done, the noise target was not reached everywhere")
+        }
         Stage::Done(Ended::OutOfTime) => format!("{what}: the time is up"),
         Stage::Done(Ended::Cancelled) => format!("{what}: stopped"),
         Stage::Failed(_) => format!("{what}: failed"),

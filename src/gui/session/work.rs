@@ -116,8 +116,7 @@ fn has_same_surfaces(a: &Editable, b: &Editable) -> bool {
 /// Whether the shapes of a scene compile to the same: a mesh that emits light gets triangles of its own.
 fn has_same_shapes(a: &Editable, b: &Editable) -> bool {
     let emits = |editable: &Editable| -> Vec<bool> {
-        let of_kind =
-            |kind| matches!(kind, MaterialKind::Diffuse { emission, .. } if emission != Rgb::ZERO);
+        let of_kind = |kind| matches!(kind, MaterialKind::Diffuse { emission, .. } if emission != Rgb::ZERO);
         let surfaces = editable.surfaces.iter();
         surfaces.map(|surface| surface.as_ref().is_some_and(|surface| of_kind(surface.material()))).collect()
     };
