@@ -203,12 +203,14 @@ impl Dialogs {
         }
         let window = Window::new("Mouse and keys").open(&mut self.is_help_open).collapsible(false);
         window.pivot(Align2::CENTER_CENTER).default_pos(ctx.content_rect().center()).show(ctx, |ui| {
-            Grid::new("help").num_columns(2).striped(true).show(ui, |ui| {
-                for (keys, meaning) in HELP {
-                    ui.strong(keys);
-                    ui.label(meaning);
-                    ui.end_row();
-                }
+            ScrollArea::vertical().show(ui, |ui| {
+                Grid::new("help").num_columns(2).striped(true).show(ui, |ui| {
+                    for (keys, meaning) in HELP {
+                        ui.strong(keys);
+                        ui.label(meaning);
+                        ui.end_row();
+                    }
+                });
             });
         });
     }
