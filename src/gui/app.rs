@@ -93,7 +93,7 @@ impl App {
             });
         }
         let mark = if self.studio.is_edited() { " *" } else { "" };
-        let name = self.studio.document.path.as_ref().and_then(|path| path.file_name());
+        let name = self.studio.document.loaded.as_ref().and_then(|loaded| loaded.path.file_name());
         let title = match name {
             Some(name) => format!("{}{mark} – pathtracer", name.to_string_lossy()),
             None => "pathtracer".to_owned(),

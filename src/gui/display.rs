@@ -57,6 +57,15 @@ pub struct Request {
 }
 
 impl Request {
+    /// Whether the frame does not know yet what is to be shown.
+    fn is_early(&self) -> bool {
+        match self.view {
+            View::Picture | View::Samples => false,
+            View::Error => self.frame.errors.is_none(),
+            View::Albedo | View::Normals | View::Depth => self.frame.look.is_none(),
+        }
+    }
+
     fn is_same(&self, other: &Request) -> bool {
         Arc::ptr_eq(&self.frame, &other.frame)
             && self.view == other.view
@@ -106,10 +115,14 @@ impl Shared {
                     None => state = self.wake.wait(state).unwrap_or_else(PoisonError::into_inner),
                 }
             };
+            let is_early = request.is_early() && state.shown.is_some();
             drop(state);
-            let shown = Arc::new(show(request));
-            self.lock().shown = Some(shown);
-            (self.notify)();
+            // The picture before is better than none.
+            if !is_early {
+                let shown = Arc::new(show(request));
+                self.lock().shown = Some(shown);
+                (self.notify)();
+            }
         }
     }
 }

@@ -76,6 +76,17 @@ pub fn write(path: &Path, text: &str) -> Result<(), Error> {
     })
 }
 
+/// Writes an edited text to a file.
+///
+/// # Errors
+/// As [`read_text`] and [`write`].
+pub fn save(text: String, path: &Path) -> Result<(Loaded, Files), Error> {
+    let loaded = read_text(text, path)?;
+    write(path, &loaded.text)?;
+    let files = Files::of(path).with_named(&loaded.scene);
+    Ok((loaded, files))
+}
+
 /// When a file was changed, and its size; `None` if it is not there.
 type Stamp = Option<(SystemTime, u64)>;
 
@@ -84,9 +95,9 @@ fn stamp(path: &Path) -> Stamp {
     Some((found.modified().ok()?, found.len()))
 }
 
-/// What a scene is read from.
+/// What a scene is read from, and when that was changed.
 #[derive(Debug, Default)]
-struct Files(Vec<(PathBuf, Stamp)>);
+pub struct Files(Vec<(PathBuf, Stamp)>);
 
 impl Files {
     /// The scene file alone.
@@ -218,16 +229,10 @@ impl Document {
         }
     }
 
-    /// Writes an edited text to a file and goes on with that: it is read already, so its changed date means nothing.
-    ///
-    /// # Errors
-    /// As [`write`] and [`scene::parse`].
-    pub fn save(&mut self, text: String, path: &Path) -> Result<(), Error> {
-        let loaded = read_text(text, path)?;
-        write(path, &loaded.text)?;
-        self.files = Files::of(path).with_named(&loaded.scene);
+    /// Goes on with a scene that was just written to its file, whose changed date means nothing.
+    pub fn take_saved(&mut self, loaded: Loaded, files: Files) {
+        self.files = files;
         self.take(Ok(Arc::new(loaded)));
-        Ok(())
     }
 
     /// Whether a file has changed since it was read. Looks only now and then.

@@ -1,9 +1,11 @@
-//! Writing a picture that is shown, beside the window's thread.
+//! Writing pictures and scenes, beside the window's thread.
 
+use super::document::{self, Files, Loaded};
 use super::session::Frame;
 use crate::error::Result;
 use crate::output::{Provenance, Target, Wanted};
 use crate::render;
+use crate::scene::edit::Editable;
 use crate::scene::{self, edit};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -53,4 +55,26 @@ pub fn write(frame: &Frame, path: &Path, exposure: f64) -> Result<()> {
     };
     let light: Vec<f64> = frame.light.iter().flat_map(|light| light.to_array()).collect();
     target.write_light(&provenance, &light)
+}
+
+/// A scene that was saved: as it is read from its file, what that is, and what it says.
+pub type SavedScene = Result<(Loaded, Files, Arc<Editable>)>;
+
+/// Writes a scene with its changes on a thread of its own; `wake` is called when it is done.
+pub fn start_scene(
+    loaded: Arc<Loaded>,
+    editable: Arc<Editable>,
+    path: PathBuf,
+    wake: impl FnOnce() + Send + 'static,
+) -> Receiver<SavedScene> {
+    let (sender, receiver) = channel();
+    thread::spawn(move || {
+        let saved = edit::save(&loaded.text, &loaded.scene.desc, &editable)
+            .and_then(|text| document::save(text, &path))
+            .map(|(loaded, files)| (loaded, files, editable));
+        // As above.
+        let _ = sender.send(saved);
+        wake();
+    });
+    receiver
 }

@@ -6,12 +6,12 @@ use super::document::{Document, Event, Loaded};
 use super::form::Form;
 use super::history::History;
 use super::pick::{self, Pick, Tool};
-use super::saving;
+use super::saving::{self, SavedScene};
 use super::session::{Frame, Order, Purpose, Session, Stage, Status};
 use super::settings::Kept;
 use crate::output::Wanted;
 use crate::render::{AccelKind, Settings};
-use crate::scene::edit::{self, Editable};
+use crate::scene::edit::Editable;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, TryRecvError};
@@ -78,6 +78,7 @@ pub struct Studio {
     told: u64,
     picking: Option<Receiver<Pick>>,
     saving: Option<Receiver<Result<PathBuf, String>>>,
+    saving_scene: Option<Receiver<SavedScene>>,
 }
 
 impl Studio {
@@ -110,6 +111,7 @@ impl Studio {
             told: 0,
             picking: None,
             saving: None,
+            saving_scene: None,
             wake,
         }
     }
@@ -142,6 +144,7 @@ impl Studio {
         }
         self.take_pick();
         self.take_saved();
+        self.look_for_saved_scene();
         self.tell_end();
         self.refresh();
     }
@@ -338,30 +341,51 @@ impl Studio {
         self.tool = Tool::Select;
     }
 
-    /// Writes the scene with its changes, to its file or another one.
+    /// Begins to write the scene with its changes, to its file or another one.
     pub fn save_scene(&mut self, path: Option<&Path>) {
+        self.finish_saving();
         let (Some(loaded), Some(editable)) = (self.document.loaded.clone(), self.editable.clone()) else {
             return;
         };
         let path = path.unwrap_or(&loaded.path).to_path_buf();
-        let saved = edit::save(&loaded.text, &loaded.scene.desc, &editable)
-            .and_then(|text| self.document.save(text, &path));
-        match saved {
-            Ok(()) => {
-                self.kept.remember(&path);
-                self.say(format!("{} is saved", path.display()));
-                self.keep_picture();
-            }
-            Err(error) => self.say_error(error.to_string()),
+        self.saving_scene = Some(saving::start_scene(loaded, editable, path, self.waker()));
+    }
+
+    /// Waits until the scene is saved, if that was begun.
+    pub fn finish_saving(&mut self) {
+        if let Some(saving) = self.saving_scene.take() {
+            self.take_saved_scene(saving.recv().ok());
         }
     }
 
-    /// Goes on with the picture of the scene that was just saved: it is the same.
-    fn keep_picture(&mut self) {
-        let Some(loaded) = &self.document.loaded else { return };
-        self.editable = Some(Arc::new(loaded.editable.clone()));
-        if self.ordered.is_some() {
-            self.ordered = self.key();
+    fn look_for_saved_scene(&mut self) {
+        let Some(saving) = &self.saving_scene else { return };
+        let saved = match saving.try_recv() {
+            Err(TryRecvError::Empty) => return,
+            Err(TryRecvError::Disconnected) => None,
+            Ok(saved) => Some(saved),
+        };
+        self.saving_scene = None;
+        self.take_saved_scene(saved);
+    }
+
+    /// Goes on with the scene that was saved. The picture is the same, so it stays.
+    fn take_saved_scene(&mut self, saved: Option<SavedScene>) {
+        let (loaded, files, editable) = match saved {
+            Some(Ok(saved)) => saved,
+            Some(Err(error)) => return self.say_error(error.to_string()),
+            None => return self.say_error("the scene could not be saved".into()),
+        };
+        self.kept.remember(&loaded.path);
+        self.say(format!("{} is saved", loaded.path.display()));
+        let saved = Arc::new(loaded.editable.clone());
+        self.document.take_saved(loaded, files);
+        // What was changed in the meantime is still to be saved.
+        if self.editable.as_ref().is_some_and(|now| **now == *editable) {
+            self.editable = Some(saved);
+        }
+        if let (Some(key), Some(ordered)) = (self.key(), &mut self.ordered) {
+            ordered.0.loaded = key.0.loaded;
         }
     }
 
@@ -391,6 +415,7 @@ impl Studio {
             self.session.stop();
             self.session.wait();
         }
+        self.finish_saving();
         if let Some(saving) = self.saving.take() {
             // What went wrong has no window left to be said in.
             let _ = saving.recv();

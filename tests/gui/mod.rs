@@ -1,4 +1,5 @@
 mod edit;
+mod measure;
 mod panels;
 mod previews;
 mod settings;

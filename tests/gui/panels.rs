@@ -132,7 +132,7 @@ fn a_selected_object_shows_its_material_and_a_slider_changes_it() {
     window.get_by_label("2 Ball: ball").click();
     window.run_steps(3);
     assert_eq!(window.state().0.selected, Some(1));
-    window.get_by_label("Coat");
+    assert_eq!(window.get_all_by_label("Coat").count(), 2);
     let of = |window: &Window<'_>| {
         let editable = window.state().0.editable.clone().expect("a scene");
         editable.surfaces[1].clone().expect("a material of its own")
@@ -150,7 +150,7 @@ fn errors_of_the_scene_are_shown_with_their_lines() {
     desk.write("balls.yaml", &super::BALLS.replace("Radius: 1\n", "Radius: -1\n"));
     until(&mut window.state_mut().0, "errors", |studio| !studio.document.diagnostics.is_empty());
     window.run_steps(2);
-    window.get_by_label_contains("balls.yaml:22:");
+    window.get_by_label_contains("balls.yaml:23:");
 }
 
 #[test]

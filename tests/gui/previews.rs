@@ -157,7 +157,7 @@ fn an_order_that_cannot_be_says_why_and_the_next_one_is_taken() {
 
 #[test]
 fn the_error_that_is_shown_is_near_the_error() {
-    // Of a picture of 512 samples the map that halves tell is compared with a picture of 16 times as many.
+    // Of a picture of 128 samples the map that halves tell is compared with a picture of eight times as many.
     let loaded = load(&sample("cornellBox"));
     let session = session();
     let of = |samples: u64, seed: u64| {
@@ -166,7 +166,7 @@ fn the_error_that_is_shown_is_near_the_error() {
         session.wait();
         session.frame().expect("a picture")
     };
-    let (rough, fine) = (of(512, 0), of(8192, 1));
+    let (rough, fine) = (of(128, 0), of(1024, 1));
     let mean_square = |values: &mut dyn Iterator<Item = f64>| {
         let (sum, count) = values.fold((0.0, 0.0), |(sum, count), x| (sum + x * x, count + 1.0));
         sum / count

@@ -68,7 +68,7 @@ fn a_file_with_errors_shows_their_lines_and_keeps_the_last_good_picture() {
     let before = studio.session.frame().expect("a picture");
     desk.write("balls.yaml", &BALLS.replace("Radius: 1\n", "Radius: -1\n").replace("Fov: 0.25", "Fov: 45"));
     until(&mut studio, "errors", |studio| studio.document.diagnostics.len() == 2);
-    assert_eq!(line_of(&studio), [5, 22]);
+    assert_eq!(line_of(&studio), [5, 23]);
     let after = studio.session.frame().expect("still a picture");
     assert!(Arc::ptr_eq(&before, &after));
     desk.write("balls.yaml", BALLS);
@@ -192,11 +192,13 @@ fn a_saved_scene_is_the_file_and_no_longer_edited() {
     studio.edit(|editable| editable.camera.focus_distance = 5.5);
     assert!(studio.is_edited());
     studio.save_scene(None);
+    studio.finish_saving();
     assert!(!studio.is_edited());
     let expected = BALLS.replace("FocusDistance: 6 ", "FocusDistance: 5.5 ");
     assert_eq!(String::from_utf8(desk.read("balls.yaml")).expect("UTF-8"), expected);
     studio.edit(|editable| editable.camera.focus_distance = 6.0);
     studio.save_scene(Some(&desk.path("other.yaml")));
+    studio.finish_saving();
     assert_eq!(String::from_utf8(desk.read("other.yaml")).expect("UTF-8"), BALLS);
     assert_eq!(studio.document.path, Some(desk.path("other.yaml")));
 }
@@ -242,6 +244,7 @@ fn a_saved_preview_is_the_picture_of_the_command_line() {
     studio.save_picture(&desk.path("window.exr"));
     until(&mut studio, "a file", |studio| studio.notice.is_some());
     studio.save_scene(None);
+    studio.finish_saving();
     desk.command(&"balls.yaml 48 27 16 8 line.exr --accel native".split(' ').collect::<Vec<_>>());
     assert!(desk.read("window.exr") == desk.read("line.exr"));
 }

@@ -13,7 +13,7 @@ pub(super) fn show(ui: &mut Ui, studio: &mut Studio, desk: &mut Desk) {
     MenuBar::new().ui(ui, |ui| {
         ui.menu_button("File", |ui| file_menu(ui, studio, desk));
         ui.menu_button("Edit", |ui| edit_menu(ui, studio));
-        ui.menu_button("View", |ui| view_menu(ui, studio, desk));
+        ui.menu_button("Look", |ui| view_menu(ui, studio, desk));
         if ui.button("Help").clicked() {
             desk.dialogs.is_help_open ^= true;
         }
@@ -139,9 +139,12 @@ fn tools(ui: &mut Ui, studio: &mut Studio) {
 }
 
 fn views(ui: &mut Ui, studio: &mut Studio) {
-    ComboBox::from_id_salt("view").selected_text(studio.view.name()).width(100.0).show_ui(ui, |ui| {
-        for view in View::ALL {
-            ui.selectable_value(&mut studio.view, view, view.name());
-        }
-    });
+    let label = ui.label("View");
+    let list =
+        ComboBox::from_id_salt("view").selected_text(studio.view.name()).width(100.0).show_ui(ui, |ui| {
+            for view in View::ALL {
+                ui.selectable_value(&mut studio.view, view, view.name());
+            }
+        });
+    list.response.labelled_by(label.id);
 }

@@ -210,7 +210,7 @@ fn hint(ui: &Ui, place: Rect, studio: &Studio) {
         (Some(_), _) => "rendering…",
         (None, _) => "Open a scene: File, Ctrl+O, or drop a file here",
     };
-    let color = ui.visuals().weak_text_color();
+    let color = ui.visuals().text_color();
     ui.painter().text(place.center(), Align2::CENTER_CENTER, text, FontId::proportional(16.0), color);
 }
 

@@ -103,7 +103,9 @@ impl Choice {
             }
         });
         ui.horizontal(|ui| {
-            let edit = ui.add(TextEdit::singleline(&mut self.name).id_salt("name").desired_width(300.0));
+            let label = ui.label("Name");
+            let edit = TextEdit::singleline(&mut self.name).id_salt("name").desired_width(280.0);
+            let edit = ui.add(edit).labelled_by(label.id);
             if std::mem::take(&mut self.is_new) {
                 edit.request_focus();
             }
@@ -137,7 +139,7 @@ pub struct Dialogs {
 impl Dialogs {
     /// Whether one of them has the keyboard.
     pub fn is_any_open(&self) -> bool {
-        self.choice.is_some() || self.is_closing
+        self.choice.is_some() || self.is_closing || self.is_help_open
     }
 
     /// Asks for a scene.
@@ -201,12 +203,14 @@ impl Dialogs {
         }
         let window = Window::new("Mouse and keys").open(&mut self.is_help_open).collapsible(false);
         window.pivot(Align2::CENTER_CENTER).default_pos(ctx.content_rect().center()).show(ctx, |ui| {
-            Grid::new("help").num_columns(2).striped(true).show(ui, |ui| {
-                for (keys, meaning) in HELP {
-                    ui.strong(keys);
-                    ui.label(meaning);
-                    ui.end_row();
-                }
+            ScrollArea::vertical().show(ui, |ui| {
+                Grid::new("help").num_columns(2).striped(true).show(ui, |ui| {
+                    for (keys, meaning) in HELP {
+                        ui.strong(keys);
+                        ui.label(meaning);
+                        ui.end_row();
+                    }
+                });
             });
         });
     }
@@ -220,6 +224,7 @@ impl Dialogs {
             ui.horizontal(|ui| {
                 if ui.button("Save and close").clicked() {
                     studio.save_scene(None);
+                    studio.finish_saving();
                     self.may_close = !studio.is_edited();
                     self.is_closing = false;
                 }

@@ -118,7 +118,10 @@ fn compare(ui: &mut Ui, studio: &mut Studio) {
         });
     });
     if let Some(share) = &mut studio.wipe {
-        ui.add(Slider::new(share, 0.0..=1.0).show_value(false));
+        ui.horizontal(|ui| {
+            let label = ui.label("A ends at");
+            ui.add(Slider::new(share, 0.0..=1.0).show_value(false)).labelled_by(label.id);
+        });
     }
     if let Some(stored) = &studio.stored {
         let [width, height] = stored.size();

@@ -16,7 +16,7 @@ pub use dialogs::Dialogs;
 pub use zoom::{Zoom, pixel_at};
 
 use super::studio::Studio;
-use eframe::egui::{CentralPanel, Frame, Panel, ScrollArea, Ui};
+use eframe::egui::{CentralPanel, Color32, Frame, Panel, ScrollArea, Ui};
 
 /// What is drawn, beside what [`Studio`] holds.
 #[derive(Default)]
@@ -47,7 +47,9 @@ impl Desk {
                 objects::show(ui, studio);
             });
         });
-        let frame = Frame::NONE.fill(ui.visuals().extreme_bg_color);
+        // Neither black nor white, so that the picture's own can be told from it.
+        let gray = if ui.visuals().dark_mode { 24 } else { 170 };
+        let frame = Frame::NONE.fill(Color32::from_gray(gray));
         CentralPanel::default().frame(frame).show(ui, |ui| self.canvas.show(ui, studio));
         self.dialogs.show(ui.ctx(), studio);
     }

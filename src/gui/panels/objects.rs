@@ -80,28 +80,25 @@ fn material(ui: &mut Ui, studio: &mut Studio, index: usize) {
 }
 
 fn fields(ui: &mut Ui, surface: &mut Surface) {
-    ui.label("Type");
-    ComboBox::from_id_salt("type").selected_text(surface.kind.name()).show_ui(ui, |ui| {
+    let label = ui.label("Type");
+    let list = ComboBox::from_id_salt("type").selected_text(surface.kind.name()).show_ui(ui, |ui| {
         for kind in SurfaceKind::ALL {
             ui.selectable_value(&mut surface.kind, kind, kind.name());
         }
     });
+    list.response.labelled_by(label.id);
     ui.end_row();
     color(ui, "Colour", &mut surface.color, surface.has_color_picture);
     match surface.kind {
         SurfaceKind::Diffuse => {
-            ui.label("Emission");
+            let label = ui.label("Emission").id;
             let speed = 0.01 * surface.emission_strength.max(1.0);
-            ui.add(
-                DragValue::new(&mut surface.emission_strength)
-                    .speed(speed)
-                    .range(0.0..=1e6)
-                    .clamp_existing_to_range(false),
-            );
+            let strength = DragValue::new(&mut surface.emission_strength).speed(speed).range(0.0..=1e6);
+            ui.add(strength.clamp_existing_to_range(false)).labelled_by(label);
             ui.end_row();
             if surface.emission_strength > 0.0 {
-                ui.label("Light");
-                radiance(ui, &mut surface.emission_color);
+                let label = ui.label("Light").id;
+                radiance(ui, label, &mut surface.emission_color);
                 ui.end_row();
             }
         }
@@ -112,32 +109,29 @@ fn fields(ui: &mut Ui, surface: &mut Surface) {
             share(ui, "Specularity", &mut surface.specularity);
         }
         SurfaceKind::Refractive => {
-            ui.label("n out / n in");
-            ui.add(
-                DragValue::new(&mut surface.ratio)
-                    .speed(0.005)
-                    .range(0.01..=100.0)
-                    .clamp_existing_to_range(false),
-            )
-            .on_hover_text("n outside / n inside: about 0.67 for glass, 0.42 for diamond");
+            let label = ui.label("n out / n in");
+            let ratio = DragValue::new(&mut surface.ratio).speed(0.005).range(0.01..=100.0);
+            ui.add(ratio.clamp_existing_to_range(false))
+                .labelled_by(label.id)
+                .on_hover_text("n outside / n inside: about 0.67 for glass, 0.42 for diamond");
             ui.end_row();
         }
     }
 }
 
 fn color(ui: &mut Ui, label: &str, color: &mut crate::math::Rgb, is_picture: bool) {
-    ui.label(label);
+    let label = ui.label(label).id;
     if is_picture {
         ui.weak("a picture");
     } else {
-        reflectance(ui, color);
+        reflectance(ui, label, color);
     }
     ui.end_row();
 }
 
 fn share(ui: &mut Ui, label: &str, value: &mut f64) {
-    ui.label(label);
+    let label = ui.label(label);
     ui.spacing_mut().slider_width = 80.0;
-    ui.add(Slider::new(value, 0.0..=1.0).max_decimals(3));
+    ui.add(Slider::new(value, 0.0..=1.0).max_decimals(3)).labelled_by(label.id);
     ui.end_row();
 }

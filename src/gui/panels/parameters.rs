@@ -74,8 +74,8 @@ fn exposure(ui: &mut Ui, studio: &mut Studio) {
     ui.spacing_mut().slider_width = 90.0;
     let slider = Slider::new(exposure, -10.0..=10.0).clamping(eframe::egui::SliderClamping::Never);
     ui.horizontal(|ui| {
-        ui.label("Exposure").on_hover_text(Field::Exposure.help());
-        ui.add(slider.fixed_decimals(1).suffix(" EV"));
+        let label = ui.label("Exposure").on_hover_text(Field::Exposure.help());
+        ui.add(slider.fixed_decimals(1).suffix(" EV")).labelled_by(label.id);
     });
     *exposure = exposure.clamp(-100.0, 100.0);
 }
@@ -101,12 +101,12 @@ fn camera(ui: &mut Ui, studio: &mut Studio) {
 
 /// Three fields in a row.
 fn triple(ui: &mut Ui, studio: &mut Studio, label: &str, field: fn(usize) -> Field) {
-    ui.label(label);
+    let label = ui.label(label);
     ui.vertical(|ui| {
         ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = 3.0;
             for axis in 0..3 {
-                input(ui, studio, field(axis), NARROW);
+                input(ui, studio, field(axis), NARROW).labelled_by(label.id);
             }
         });
         (0..3).for_each(|axis| studio.form.show_error(ui, field(axis)));
@@ -130,11 +130,12 @@ fn choice<T: Copy + PartialEq>(
     all: impl IntoIterator<Item = T>,
     name: impl Fn(T) -> String,
 ) {
-    ui.label(label);
-    ComboBox::from_id_salt(label).selected_text(name(*value)).width(WIDE).show_ui(ui, |ui| {
+    let text = ui.label(label);
+    let list = ComboBox::from_id_salt(label).selected_text(name(*value)).width(WIDE).show_ui(ui, |ui| {
         for one in all {
             ui.selectable_value(value, one, name(one));
         }
     });
+    list.response.labelled_by(text.id);
     ui.end_row();
 }

@@ -96,6 +96,14 @@ impl<'f> Follow<'f> {
         });
     }
 
+    fn learn_look(&self) {
+        if self.memory().look.is_none()
+            && let Some(look) = self.look()
+        {
+            self.memory().look = Some(look);
+        }
+    }
+
     /// Compares the means with those of half as many samples.
     fn learn_errors(&self, light: &[Rgb], samples: u64) {
         if !samples.is_power_of_two() || self.is_coarse {
@@ -165,12 +173,13 @@ impl Watch for Follow<'_> {
         let mut light = Vec::new();
         so_far.means(&mut light);
         self.learn_errors(&light, samples);
-        let is_first = self.memory().look.is_none();
+        // Of a small picture what is seen is found at once; of a large one the light is not kept waiting.
+        if self.is_coarse {
+            self.learn_look();
+        }
         if is_due {
             self.show(light, samples, so_far.film());
         }
-        if is_first && let Some(look) = self.look() {
-            self.memory().look = Some(look);
-        }
+        self.learn_look();
     }
 }

@@ -85,7 +85,8 @@ fn verify(text: &str, desc: &SceneDesc, after: &Editable) -> Result<()> {
         && read.desc.environment == wanted.environment
         && read.desc.environment_map == wanted.environment_map
         && read.desc.objects.len() == wanted.objects.len()
-        && read.desc.objects.iter().zip(&wanted.objects).all(|(a, b)| a.material == b.material);
+        && read.desc.objects.iter().zip(&wanted.objects).all(|(a, b)| a.material == b.material)
+        && Editable::read(text, &read.desc) == *after;
     if is_same {
         return Ok(());
     }

@@ -39,6 +39,9 @@ impl Editor<'_> {
         if let Some(text) = self.without_alias(section, key, value) {
             return Ok(text);
         }
+        if let Some(text) = self.without_anchor(section, key) {
+            return Owned(text).set(section, key, value, after);
+        }
         match mapping.position(key) {
             Some(index) => self.replace(&[path, vec![index as u32]].concat(), mapping.at(index), key, value),
             None => self.insert(&path, mapping, key, value, after),
@@ -150,33 +153,50 @@ impl Editor<'_> {
         Ok(Owned(text))
     }
 
-    /// The text where an alias on the way to the value is replaced by what it stands for, with the value; `None` without one.
+    /// The text where the alias that stands for the mapping, or for the value, is replaced by what it says then; `None` without
+    /// one.
     fn without_alias(&self, section: &[Step], key: &str, value: Written) -> Option<String> {
-        let (mut path, mut node) = (Vec::new(), self.root);
-        for (depth, step) in section.iter().enumerate() {
-            let index = match step {
-                Step::Key(name) => node.position(name)?,
-                Step::Item(index) => *index,
-            };
-            let value_start = match step {
-                Step::Key(_) => self.value_start(self.key_offset(&path, node, index)?),
-                Step::Item(_) => None,
-            };
-            node = node.at(index)?;
-            path.push(index as u32);
-            let Some(start) = value_start.filter(|&start| self.text[start..].starts_with('*')) else {
-                continue;
-            };
-            // Only the mapping that holds the value is written out: an alias further up has no end in sight.
-            if depth + 1 < section.len() {
-                return None;
-            }
-            let end = scalar_at(self.text, start)?.end;
-            let mut text = self.text.to_owned();
-            text.replace_range(start..end, &mapping_with(node, key, value)?);
-            return Some(text);
-        }
-        None
+        let (start, node) =
+            self.written_value(section, None).filter(|(start, _)| self.begins(*start, '*')).or_else(
+                || self.written_value(section, Some(key)).filter(|(start, _)| self.begins(*start, '*')),
+            )?;
+        let is_mapping = matches!(node.kind, Kind::Map(_));
+        let new = if is_mapping { mapping_with(node, key, value)? } else { flow(value) };
+        let mut text = self.text.to_owned();
+        text.replace_range(scalar_at(self.text, start)?, &new);
+        Some(text)
+    }
+
+    /// The text where the anchor of the mapping, or of the value, has gone to the first of its aliases, which says what stands
+    /// here; `None` without an anchor, or without an alias.
+    fn without_anchor(&self, section: &[Step], key: &str) -> Option<String> {
+        let places = [self.written_value(section, None), self.written_value(section, Some(key))];
+        let (start, node) = places.into_iter().flatten().find(|(start, _)| self.begins(*start, '&'))?;
+        let anchor = scalar_at(self.text, start)?;
+        let name = &self.text[anchor.start + 1..anchor.end];
+        let alias = alias_after(self.text, name, anchor.end)?;
+        let mut text = self.text.to_owned();
+        text.replace_range(alias, &format!("&{name} {}", plain(node)?));
+        let blank = self.text[anchor.end..].starts_with(' ');
+        text.replace_range(anchor.start..anchor.end + usize::from(blank), "");
+        Some(text)
+    }
+
+    /// The value of a section, or of a key of it, and where it begins, if on the line of its key.
+    fn written_value(&self, section: &[Step], key: Option<&str>) -> Option<(usize, &Node<'_>)> {
+        let (section, last) = match (key, section.split_last()?) {
+            (Some(key), _) => (section, key),
+            (None, (Step::Key(last), above)) => (above, *last),
+            _ => return None,
+        };
+        let (path, mapping) = self.walk(section)?;
+        let index = mapping.position(last)?;
+        let start = self.value_start(self.key_offset(&path, mapping, index)?)?;
+        Some((start, mapping.at(index)?))
+    }
+
+    fn begins(&self, offset: usize, with: char) -> bool {
+        self.text[offset..].starts_with(with)
     }
 
     /// Where the value of the key at `offset` begins, if on the same line.
@@ -210,6 +230,18 @@ fn scalar_at(text: &str, offset: usize) -> Option<Range<usize>> {
     (length > 0).then(|| offset..offset + length)
 }
 
+/// The first alias of a name behind `offset`, but for those in comments.
+fn alias_after(text: &str, name: &str, offset: usize) -> Option<Range<usize>> {
+    let alias = format!("*{name}");
+    let found = text[offset..].match_indices(&alias).map(|(at, _)| offset + at..offset + at + alias.len());
+    let is_alias = |span: &Range<usize>| {
+        let line = text[..span.start].rfind('\n').map_or(0, |end| end + 1);
+        let is_whole = !text[span.end..].starts_with(|c: char| !c.is_whitespace() && !",]}".contains(c));
+        is_whole && !text[line..span.start].contains('#')
+    };
+    found.into_iter().find(is_alias)
+}
+
 /// The start of the line at `offset`, or of the comments right above it.
 fn above_comments(text: &str, offset: usize) -> usize {
     let mut start = text[..offset].rfind('\n').map_or(0, |end| end + 1);
@@ -239,6 +271,7 @@ fn plain(node: &Node<'_>) -> Option<String> {
         Kind::Null => "~".to_owned(),
         Kind::Bool(flag) => flag.to_string(),
         Kind::Number(x) => number(*x),
+        Kind::Text(text) if is_word(text) => text.to_string(),
         Kind::Text(text) => quoted(text),
         Kind::List(items) => {
             let items: Option<Vec<String>> = items.iter().map(plain).collect();
@@ -251,6 +284,15 @@ fn plain(node: &Node<'_>) -> Option<String> {
         }
         Kind::Tagged(_) => return None,
     })
+}
+
+/// Whether a text needs no quotes: a word of letters that is no number, no truth value and no null.
+fn is_word(text: &str) -> bool {
+    let reserved = ["true", "false", "yes", "no", "on", "off", "null", "y", "n", "inf", "nan", "infinity"];
+    let lower = text.to_ascii_lowercase();
+    text.starts_with(|c: char| c.is_ascii_alphabetic())
+        && text.chars().all(|c| c.is_ascii_alphanumeric())
+        && !reserved.contains(&lower.as_str())
 }
 
 /// A text in double quotes.
