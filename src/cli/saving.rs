@@ -44,7 +44,7 @@ pub(super) fn part_place(job: &Job) -> Result<FilePlace> {
 /// The place of checkpoints: as asked; of a part also its own file, until it is complete.
 pub(super) fn checkpoint_place(job: &Job, part: Option<&FilePlace>) -> Result<Option<FilePlace>> {
     let Some(path) = &job.checkpoint else { return Ok(part.cloned()) };
-    if path.exists() && job.resume.is_none() {
+    if path.is_file() && job.resume.is_none() {
         let path = path.display();
         return Err(Error::Usage(format!(
             "the checkpoint {path} is there already: --resume {path} goes on with it; remove it to begin anew"

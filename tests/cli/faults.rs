@@ -54,7 +54,7 @@ fn what_stands_in_the_way_is_found_before_the_render() {
 fn a_second_signal_ends_at_once_and_leaves_no_half_file() {
     for (signal, code) in [("INT", 130), ("TERM", 143)] {
         let folder = Folder::new();
-        let render = "ball.yaml 64 48 4294967296 3 a.png --json --checkpoint a.film";
+        let render = "ball.yaml 64 48 4294967296 3 a.png --json --checkpoint a.film -q";
         let mut child = folder.command(render).stdout(Stdio::piped()).spawn().expect("a child");
         let mut reader = BufReader::new(child.stdout.take().expect("a pipe"));
         let mut line = String::new();
@@ -75,7 +75,7 @@ fn a_second_signal_ends_at_once_and_leaves_no_half_file() {
 #[test]
 fn an_interrupted_part_goes_on_where_it_was() {
     let folder = Folder::new();
-    let render = "ball.yaml 64 48 8000 4";
+    let render = "ball.yaml 64 48 3000 4";
     let command = format!("{render} a.film --part 0/1 --json");
     let mut child =
         folder.command(&command).stdout(Stdio::piped()).stderr(Stdio::null()).spawn().expect("a child");

@@ -25,7 +25,7 @@ while [ $done -lt "$kills" ]; do
             limit=$((RANDOM % longest + 20))
             seconds=$(printf '%d.%03d' $((limit / 1000)) $((limit % 1000)))
             ( timeout -s KILL "$seconds" "$program" $render a.exr $option --quiet --checkpoint a.film --resume a.film \
-                --every 100ms ) 2>/dev/null
+                --every 100ms; exit $? ) 2>/dev/null
             code=$?
             [ $code -eq 137 ] || break
             done=$((done + 1))
