@@ -225,7 +225,7 @@ fn items(count: u32) -> Vec<TreeItem> {
     let item = |i: u32| {
         let (center, size) = (random.in_cube() * 3.0, random.between(0.0, 0.1));
         let bounds = Bounds { min: center - size, max: center + size };
-        TreeItem { bounds, power: if i % 5 == 0 { 0.0 } else { random.between(0.1, 10.0) } }
+        TreeItem { bounds, power: if i.is_multiple_of(5) { 0.0 } else { random.between(0.1, 10.0) } }
     };
     (0..count).map(item).collect()
 }

@@ -58,7 +58,7 @@ impl Instance {
     }
 
     /// A point of the world in the mesh's units.
-    pub(crate) fn to_mesh(&self, p: DVec3) -> DVec3 {
+    pub(crate) fn in_mesh(&self, p: DVec3) -> DVec3 {
         self.rotation.transpose() * ((p - self.position) / self.scale)
     }
 
@@ -66,7 +66,7 @@ impl Instance {
     fn seen_by_mesh(&self, ray: &Ray) -> Ray {
         let back = self.rotation.transpose();
         Ray {
-            origin: self.to_mesh(ray.origin),
+            origin: self.in_mesh(ray.origin),
             direction: back * ray.direction,
             side: back * ray.side,
             ..*ray

@@ -152,7 +152,7 @@ fn dark_meshes_around(world: &World, p: DVec3) -> Vec<u32> {
         let Shape::Instance(instance) = &solid.shape else { continue };
         let space = geometry.space_of(instance);
         let triangles = 0..space.triangles.len() as u32;
-        look(space, instance.to_mesh(p), triangles, solid.object, instance.bounds(space));
+        look(space, instance.in_mesh(p), triangles, solid.object, instance.bounds(space));
     }
     found
 }
