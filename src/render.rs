@@ -84,7 +84,7 @@ pub const SCRAMBLE_LENGTH: u32 = 128;
 /// The same where splitting costs nothing, or where error bars are wanted after few samples.
 pub const SHORT_SCRAMBLE_LENGTH: u32 = 2;
 
-/// The implementations of [`Accelerator`].
+/// The implementations of [`Accelerator`](crate::accel::Accelerator).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum AccelKind {
