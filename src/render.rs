@@ -72,7 +72,7 @@ pub const SCRAMBLE_LENGTH: u32 = 128;
 /// The same where splitting costs nothing, or where error bars are wanted after few samples.
 pub const SHORT_SCRAMBLE_LENGTH: u32 = 2;
 
-/// The implementations of [`Accelerator`].
+/// The implementations of [`Accelerator`](crate::accel::Accelerator).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AccelKind {
     /// Embree, of builds with the feature `embree`.

@@ -79,7 +79,7 @@ pub fn write(path: &Path, text: &str) -> Result<(), Error> {
 /// Writes an edited text to a file.
 ///
 /// # Errors
-/// As [`read_text`] and [`write`].
+/// As [`read_text`] and [`write()`].
 pub fn save(text: String, path: &Path) -> Result<(Loaded, Files), Error> {
     let loaded = read_text(text, path)?;
     write(path, &loaded.text)?;
