@@ -103,6 +103,11 @@ fn plain_keys(ctx: &Context, studio: &mut Studio, desk: &mut Desk) {
     if key(Key::R) {
         studio.reset_camera();
     }
+    view_keys(ctx, studio, desk);
+}
+
+fn view_keys(ctx: &Context, studio: &mut Studio, desk: &mut Desk) {
+    let key = |key| ctx.input_mut(|input| input.consume_key(Modifiers::NONE, key));
     if key(Key::A) {
         studio.store();
     }

@@ -5,6 +5,7 @@ use super::{Frame, Look, Shared, Stage};
 use crate::film::Film;
 use crate::math::Rgb;
 use crate::render::{Prepared, Progress, Settings, SoFar, Watch};
+use rayon::prelude::*;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -122,7 +123,8 @@ impl<'f> Follow<'f> {
 /// The standard errors of all pixels.
 fn error_bars(film: &Film) -> Vec<f32> {
     let pixels = film.width() as usize * film.height() as usize;
-    (0..pixels).map(|pixel| film.error_bar(pixel).map_or(0.0, |bar| bar.standard_error as f32)).collect()
+    let of = |pixel| film.error_bar(pixel).map_or(0.0, |bar| bar.standard_error as f32);
+    (0..pixels).into_par_iter().map(of).collect()
 }
 
 /// Standard errors from how far the mean of all samples is from that of the first half: half of the difference of two means
