@@ -373,7 +373,7 @@ pub(super) fn usage(message: &str) -> Error {
     Error::Usage(format!(
         "{message}\n\nUsage: pathtracer [OPTIONS] {}\n       pathtracer [gui] [SCENE]\n       pathtracer check SCENE...\n       \
          pathtracer compare [OPTIONS] SCENE\n       pathtracer bench [OPTIONS] [SCENE | OBJ]\n       \
-         pathtracer tradeoff [OPTIONS] SCENE\n       pathtracer diff [OPTIONS] PICTURE REFERENCE\n       pathtracer info PICTURE\n\nFor more information, try '--help'.",
+         pathtracer tradeoff [OPTIONS] SCENE\n       pathtracer diff [OPTIONS] PICTURE REFERENCE\n       pathtracer info PICTURE\n       pathtracer merge [OPTIONS] PART... IMAGE\n       pathtracer farm export|slurm --parts N [OPTIONS] SCENE WIDTH HEIGHT SAMPLES BOUNCES IMAGE\n\nFor more information, try '--help'.",
         POSITIONALS.join(" ")
     ))
 }

@@ -67,7 +67,7 @@ impl Farm {
 }
 
 /// The options of a render that only say how its picture is written.
-fn picture_options(job: &Job) -> Vec<String> {
+pub(super) fn picture_options(job: &Job) -> Vec<String> {
     let features: Vec<&str> = job.aov.iter().map(|kind| kind.name()).collect();
     let bars = job.error_bars.as_ref().map(|path| path.to_string_lossy().into_owned());
     let all = [
@@ -169,7 +169,7 @@ EOF
 }
 
 /// A word as the shell takes it.
-fn shell(word: &str) -> String {
+pub(super) fn shell(word: &str) -> String {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./,=+:@%".contains(c);
     if !word.is_empty() && word.chars().all(is_plain) && !word.contains("SLURM") {
         return word.to_owned();

@@ -6,7 +6,6 @@ use super::render::{error_bars, write_picture};
 use super::{findings, interrupt};
 use crate::error::Error;
 use crate::output::{Aov, Target};
-use crate::picture::Destination;
 use crate::render::{Merged, Settings, in_pool, merge};
 use std::path::Path;
 use std::time::Duration;
@@ -18,8 +17,14 @@ pub(super) fn run(arguments: &MergeArguments) -> anyhow::Result<u8> {
         return Err(Error::Usage(format!("{} can't be a part and the picture", part.display())).into());
     }
     // Whatever can be known to fail fails before the work.
-    interrupt::listen(vec![Destination::new(image)?.partial_path().to_path_buf()])?;
+    let target = Target::new(arguments.wanted(image))?;
     let bars = arguments.error_bars.as_deref().map(error_bars).transpose()?;
+    if bars.as_ref().is_some_and(|bars| target.holds(bars)) {
+        return Err(Error::Usage("--error-bars needs a file of its own, beside the picture's".into()).into());
+    }
+    let mut partial = target.partial_paths();
+    partial.extend(bars.iter().map(|bars| bars.partial_path().to_path_buf()));
+    interrupt::listen(partial)?;
     let pool = Settings::new(1, 1, 1, 1);
     let Merged { rendered, origin } = in_pool(&pool, || merge(parts, arguments.mix_instruction_sets))?;
     let job = job(arguments, image, &origin.recipe.scene, origin.recipe.settings());
@@ -27,7 +32,6 @@ pub(super) fn run(arguments: &MergeArguments) -> anyhow::Result<u8> {
     if rendered.features.is_none() && needs_features {
         return Err(Error::Usage(no_features().into()).into());
     }
-    let target = Target::new(job.wanted())?;
     write_picture(&target, bars.as_ref(), &job, &origin, &rendered)?;
     findings::report(&job, &rendered);
     if !job.quiet {

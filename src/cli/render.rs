@@ -101,7 +101,7 @@ pub(super) fn run(job: &Job) -> anyhow::Result<u8> {
     let origin = Origin { recipe, view, brightest: world.brightest() };
     let mut state = saving::resumed(job, &origin)?;
     if let (Some(place), None) = (output.part(), &job.resume) {
-        match saving::existing_part(job, place, &origin) {
+        match saving::existing_part(job, place, &origin)? {
             Found::Nothing => {}
             Found::Begun(begun) => state = Some(*begun),
             Found::Done => {

@@ -2,6 +2,7 @@
 
 use super::arguments::Job;
 use super::console::say;
+use super::farm;
 use crate::error::{Error, Result};
 use crate::film::file::FilePlace;
 use crate::render::{FileKind, FilmFile, OF_A_TASK, Origin, Rendered, State};
@@ -44,7 +45,7 @@ pub(super) fn part_place(job: &Job) -> Result<FilePlace> {
 /// The place of checkpoints: as asked; of a part also its own file, until it is complete.
 pub(super) fn checkpoint_place(job: &Job, part: Option<&FilePlace>) -> Result<Option<FilePlace>> {
     let Some(path) = &job.checkpoint else { return Ok(part.cloned()) };
-    if path.is_file() && job.resume.is_none() {
+    if path.is_file() && job.resume.as_ref() != Some(path) {
         let path = path.display();
         return Err(Error::Usage(format!(
             "the checkpoint {path} is there already: --resume {path} goes on with it; remove it to begin anew"
@@ -64,25 +65,33 @@ pub(super) enum Found {
 }
 
 /// Looks for the part, or for what an interrupted task left of it.
-pub(super) fn existing_part(job: &Job, place: &FilePlace, origin: &Origin) -> Found {
+///
+/// # Errors
+/// A whole file of another render, which is not to be lost; a damaged one is.
+pub(super) fn existing_part(job: &Job, place: &FilePlace, origin: &Origin) -> Result<Found> {
     if !place.path().exists() {
-        return Found::Nothing;
+        return Ok(Found::Nothing);
     }
-    let begun = FilmFile::open(place.path()).and_then(|file| {
-        if file.kind() == FileKind::Checkpoint {
-            let state = file.state(&job.settings, &origin.recipe)?;
-            return Ok(Found::Begun(Box::new(state)));
+    let file = match FilmFile::open(place.path()) {
+        Ok(file) => file,
+        Err(error) => {
+            say(format_args!("warning: {error}; it will be replaced"));
+            return Ok(Found::Nothing);
         }
-        let differences = file.origin().recipe.differences(&origin.recipe, &OF_A_TASK);
-        match differences.is_empty() {
-            true => Ok(Found::Done),
-            false => Err(file.refuse(&format!("is another part: it differs in {}", differences.join(", ")))),
+    };
+    if file.kind() == FileKind::Checkpoint {
+        return Ok(Found::Begun(Box::new(file.state(&job.settings, &origin.recipe)?)));
+    }
+    let differences = file.origin().recipe.differences(&origin.recipe, &OF_A_TASK);
+    match differences.is_empty() {
+        true => Ok(Found::Done),
+        false => {
+            let differences = differences.join(", ");
+            let why =
+                format!("is another part: it differs in {differences}; remove it, or choose another name");
+            Err(file.refuse(&why))
         }
-    });
-    begun.unwrap_or_else(|error| {
-        say(format_args!("warning: {error}; it will be replaced"));
-        Found::Nothing
-    })
+    }
 }
 
 /// Where the render of a job goes on, if it is to be resumed.
@@ -99,18 +108,29 @@ pub(super) fn resumed(job: &Job, origin: &Origin) -> Result<Option<State>> {
 /// can be made of it.
 pub(super) fn rescue(job: &Job, origin: &Origin, rendered: &Rendered, why: Error) -> Error {
     let mut origin = origin.clone();
-    origin.recipe.samples = rendered.film.samples();
+    let is_part = is_part(job);
+    if !is_part {
+        origin.recipe.samples = rendered.film.samples();
+    }
     let kept = candidates(job).into_iter().find_map(|path| {
         let place = FilePlace::new(&path).ok()?;
         rendered.write_part(&place, &origin).ok()?;
         Some(path)
     });
     match kept {
-        Some(path) => Error::Film(format!(
-            "{why}\nthe finished film is kept: `pathtracer merge {} {}` makes the picture",
-            path.display(),
-            job.image.display()
-        )),
+        Some(path) if is_part => {
+            let (kept, wanted) = (path.display(), job.image.display());
+            Error::Film(format!("{why}\nthe finished part is kept as {kept}: move it to {wanted}"))
+        }
+        Some(path) => {
+            let files = [&path, &job.image].map(|file| file.to_string_lossy().into_owned());
+            let words: Vec<String> =
+                files.into_iter().chain(farm::picture_options(job)).map(|word| farm::shell(&word)).collect();
+            let words = words.join(" ");
+            Error::Film(format!(
+                "{why}\nthe finished film is kept: `pathtracer merge {words}` makes the picture"
+            ))
+        }
         None => why,
     }
 }

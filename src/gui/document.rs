@@ -5,7 +5,8 @@ use crate::scene::desc::{MaterialDesc, ShapeDesc};
 use crate::scene::edit::Editable;
 use crate::scene::{self, Scene};
 use std::collections::BTreeSet;
-use std::fs;
+use std::fs::{self, File};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
@@ -68,12 +69,43 @@ pub fn write(path: &Path, text: &str) -> Result<(), Error> {
     let mark = if had_mark { MARK } else { "" };
     let name = target.file_name().unwrap_or_default().to_string_lossy();
     let partial = target.with_file_name(format!(".{name}-{}.part", std::process::id()));
-    let written = fs::write(&partial, format!("{mark}{text}")).and_then(|()| fs::rename(&partial, &target));
-    written.map_err(|source| {
+    let write = || {
+        let mut file = File::create(&partial)?;
+        file.write_all(format!("{mark}{text}").as_bytes())?;
+        if let Ok(before) = fs::metadata(&target) {
+            file.set_permissions(before.permissions())?;
+        }
+        file.sync_all()?;
+        fs::rename(&partial, &target)
+    };
+    write().map_err(|source| {
         // It may not even be there.
         let _ = fs::remove_file(&partial);
         Error::Io { action: "save the scene".into(), path: path.into(), source }
     })
+}
+
+/// Whether a file still holds the text that was read from it; one of another name may hold anything.
+///
+/// # Errors
+/// It holds something else, which is not to be lost.
+pub fn check_unchanged(loaded: &Loaded, path: &Path) -> Result<(), Error> {
+    let is_own = same_file(path, &loaded.path);
+    match fs::read_to_string(path) {
+        Ok(text) if is_own && text.strip_prefix(MARK).unwrap_or(&text) != loaded.text => {
+            let path = path.display();
+            Err(Error::Usage(format!(
+                "{path} has changed since it was read, so it was not overwritten: mend it, or save the scene as another file"
+            )))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Whether two paths lead to one file.
+pub fn same_file(a: &Path, b: &Path) -> bool {
+    let whole = |path: &Path| fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
+    a == b || whole(a) == whole(b)
 }
 
 /// Writes an edited text to a file.
@@ -112,6 +144,14 @@ impl Files {
             let stamp = stamp(&path);
             (path, stamp)
         }));
+        self
+    }
+
+    /// Also those that were watched before, as they are now.
+    fn with_those_of(mut self, before: Files) -> Files {
+        let others = before.0.into_iter().filter(|(path, _)| *path != self.0[0].0);
+        let others: Vec<(PathBuf, Stamp)> = others.map(|(path, _)| (path.clone(), stamp(&path))).collect();
+        self.0.extend(others);
         self
     }
 
@@ -168,7 +208,9 @@ pub enum Event {
 impl Document {
     /// Begins to read a file; `wake` is called when it is done.
     pub fn open(&mut self, path: &Path, wake: impl FnOnce() + Send + 'static) {
+        let is_same = self.path.as_deref().is_some_and(|before| same_file(before, path));
         self.path = Some(path.to_path_buf());
+        let before = if is_same { std::mem::take(&mut self.files) } else { Files::default() };
         self.files = Files::of(path);
         let (sender, receiver) = channel();
         let path = path.to_path_buf();
@@ -178,7 +220,8 @@ impl Document {
             let outcome = read(&path).map(Arc::new);
             let files = match &outcome {
                 Ok(loaded) => files.with_named(&loaded.scene),
-                Err(_) => files,
+                // A mesh that is half written now may be whole later.
+                Err(_) => files.with_those_of(before),
             };
             // Nobody waits for a file that was left for another one.
             let _ = sender.send((files, outcome));

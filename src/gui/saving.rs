@@ -69,7 +69,8 @@ pub fn start_scene(
 ) -> Receiver<SavedScene> {
     let (sender, receiver) = channel();
     thread::spawn(move || {
-        let saved = edit::save(&loaded.text, &loaded.scene.desc, &editable)
+        let saved = document::check_unchanged(&loaded, &path)
+            .and_then(|()| edit::save(&loaded.text, &loaded.scene.desc, &editable))
             .and_then(|text| document::save(text, &path))
             .map(|(loaded, files)| (loaded, files, editable));
         // As above.

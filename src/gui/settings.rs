@@ -249,7 +249,7 @@ impl Kept {
             "preview": knobs.preview.name(),
             "theme": self.theme.name(),
             "window": self.size,
-            "recent": self.recent,
+            "recent": self.recent.iter().filter_map(|path| path.to_str()).collect::<Vec<_>>(),
         })
     }
 

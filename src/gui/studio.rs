@@ -2,7 +2,7 @@
 
 use super::camera_control;
 use super::display::{Display, View};
-use super::document::{Document, Event, Loaded};
+use super::document::{self, Document, Event, Loaded};
 use super::form::Form;
 use super::history::History;
 use super::pick::{self, Pick, Tool};
@@ -79,6 +79,8 @@ pub struct Studio {
     picking: Option<Receiver<Pick>>,
     saving: Option<Receiver<Result<PathBuf, String>>>,
     saving_scene: Option<Receiver<SavedScene>>,
+    /// A scene that was not opened, since there were changes.
+    refused: Option<PathBuf>,
 }
 
 impl Studio {
@@ -112,6 +114,7 @@ impl Studio {
             picking: None,
             saving: None,
             saving_scene: None,
+            refused: None,
             wake,
         }
     }
@@ -122,7 +125,17 @@ impl Studio {
     }
 
     /// Begins to open a scene.
+    ///
+    /// Changes that are not saved are not lost at once: another scene has to be asked for twice.
     pub fn open(&mut self, path: &Path) {
+        let loaded = self.document.loaded.as_ref();
+        let is_other = loaded.is_some_and(|loaded| !document::same_file(&loaded.path, path));
+        if is_other && self.is_edited() && self.refused.as_deref() != Some(path) {
+            self.refused = Some(path.to_path_buf());
+            let why = "the scene has changes that are not saved: save it, or open the other one once more to drop them";
+            return self.say_error(why.into());
+        }
+        self.refused = None;
         let wake = self.waker();
         self.document.open(path, wake);
     }
@@ -152,14 +165,23 @@ impl Studio {
     /// Goes on with a scene that was read.
     fn take_loaded(&mut self, before: Option<Arc<Loaded>>) {
         let Some(loaded) = self.document.loaded.clone() else { return };
-        let is_reloaded = before.as_ref().is_some_and(|before| before.path == loaded.path);
+        let is_reloaded =
+            before.as_ref().is_some_and(|before| document::same_file(&before.path, &loaded.path));
         let merged = match (&before, &self.editable) {
             (Some(before), Some(editable)) if is_reloaded => {
                 merge(&before.editable, editable, &loaded.editable)
             }
             _ => loaded.editable.clone(),
         };
-        if is_reloaded {
+        let count = |editable: &Editable| editable.surfaces.len();
+        let is_same_list =
+            before.as_ref().is_none_or(|before| count(&before.editable) == count(&loaded.editable));
+        if is_reloaded && self.is_edited() && !is_same_list {
+            self.say(
+                "the scene was read again; its objects are others, so changes of materials were dropped"
+                    .into(),
+            );
+        } else if is_reloaded {
             self.say("the scene was read again".into());
         } else {
             let stem = loaded.path.file_stem().unwrap_or_default().to_string_lossy();
@@ -167,8 +189,9 @@ impl Studio {
             self.kept.remember(&loaded.path);
             self.selected = None;
             self.notice = None;
-            self.history = History::default();
         }
+        // What was before belongs to another text.
+        self.history = History::default();
         self.form.clear();
         self.selected = self.selected.filter(|&object| object < loaded.scene.desc.objects.len());
         self.editable = Some(Arc::new(merged));

@@ -57,12 +57,12 @@ impl FeatureKind {
     }
 }
 
-/// Collects `samples` samples of every pixel, or one of each pixel that is left when it is cancelled;
+/// Collects `samples(pixel)` samples of every pixel, counted row by row, or one of each pixel that is left when it is cancelled;
 /// `feature(x, y, index)` finds one.
 pub(super) fn collect<F>(
     settings: &Settings,
     watch: &dyn Watch,
-    samples: u64,
+    samples: impl Fn(usize) -> u64 + Sync,
     feature: F,
 ) -> Result<FeaturePlanes>
 where
@@ -75,6 +75,7 @@ where
             if !settings.region.contains(settings.width, x, y as u32) {
                 continue;
             }
+            let samples = samples(y * width + x as usize);
             let samples = if watch.cancelled() { samples.min(1) } else { samples };
             for sample in 0..samples {
                 *pixel += feature(x, y as u32, scrambles.place(sample).sample_index());

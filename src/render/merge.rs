@@ -76,7 +76,12 @@ fn most_common(parts: &[FilmFile]) -> Option<Origin> {
     let mut counts: BTreeMap<String, (usize, Origin)> = BTreeMap::new();
     for origin in parts.iter().map(FilmFile::origin) {
         let whole = Origin { recipe: origin.recipe.with_part(Region::All, None), ..origin.clone() };
-        counts.entry(whole.recipe.key()).or_insert_with(|| (0, whole)).0 += 1;
+        let (count, first) = counts.entry(whole.recipe.key()).or_insert_with(|| (0, whole.clone()));
+        *count += 1;
+        // The same scene under several names has the same name in the picture, whatever the order of the parts.
+        if whole.recipe.scene < first.recipe.scene {
+            *first = whole;
+        }
     }
     counts.into_values().max_by_key(|(count, _)| *count).map(|(_, origin)| origin)
 }

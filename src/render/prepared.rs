@@ -149,7 +149,12 @@ impl Run<'_> {
         }
         let tracer = FeatureTracer { world: self.world, camera: &camera, accelerator: accel };
         let start = Instant::now();
-        let samples = if self.settings.chunks.is_some() { self.settings.samples } else { taken };
+        let samples = |pixel| match &self.settings.chunks {
+            Some(_) => self.settings.samples,
+            // Where blocks stop, each by itself: a part has the samples that the whole picture has there.
+            None if self.settings.noise.is_some() => rendered.film.samples_of(pixel),
+            None => taken,
+        };
         let features = features::collect(self.settings, self.watch, samples, |x, y, index| {
             tracer.sample(&sampler, x, y, index)
         })?;
@@ -162,8 +167,17 @@ impl Run<'_> {
         let camera = self.world.camera(self.camera, self.settings.width, self.settings.height);
         let tracer = FeatureTracer { world: self.world, camera: &camera, accelerator };
         let sampler = Sobol::new(self.settings.seed);
-        features::collect(self.settings, self.watch, samples, |x, y, index| {
-            if self.watch.cancelled() { Features::default() } else { tracer.sample(&sampler, x, y, index) }
-        })
+        features::collect(
+            self.settings,
+            self.watch,
+            |_| samples,
+            |x, y, index| {
+                if self.watch.cancelled() {
+                    Features::default()
+                } else {
+                    tracer.sample(&sampler, x, y, index)
+                }
+            },
+        )
     }
 }

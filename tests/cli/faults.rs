@@ -35,6 +35,33 @@ fn a_folder_that_vanishes_does_not_cost_the_film() {
 }
 
 #[test]
+fn the_command_for_a_kept_film_has_the_options_of_the_picture() {
+    let folder = Folder::new();
+    fs::create_dir(folder.path("out")).expect("a folder");
+    let render = "ball.yaml 64 48 3000 4 out/a.png --exposure 1 --depth 16 --json";
+    let ended = change_while_rendering(&folder, render, || {
+        fs::remove_dir_all(folder.path("out")).expect("no folder");
+    });
+    ended.fails(1, "`pathtracer merge a.png.film out/a.png --exposure 1 --depth 16` makes the picture");
+}
+
+#[test]
+fn a_part_that_cannot_be_written_is_kept_as_it_is() {
+    let folder = Folder::new();
+    fs::create_dir(folder.path("out")).expect("a folder");
+    let render = "ball.yaml 64 48 3200 4";
+    let ended =
+        change_while_rendering(&folder, &format!("{render} out/b.film --chunks 0..100 --json"), || {
+            fs::remove_dir_all(folder.path("out")).expect("no folder");
+        });
+    ended.fails(1, "the finished part is kept as b.film.film: move it to out/b.film");
+    folder.run(&format!("{render} c.film --chunks 100..200 -q")).succeeds();
+    folder.run("merge b.film.film c.film a.exr -q").succeeds();
+    folder.run(&format!("{render} whole.exr -q")).succeeds();
+    assert!(folder.read("a.exr") == folder.read("whole.exr"));
+}
+
+#[test]
 fn what_stands_in_the_way_is_found_before_the_render() {
     let folder = Folder::new();
     fs::create_dir(folder.path("a.png")).expect("a folder");

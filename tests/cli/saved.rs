@@ -103,6 +103,17 @@ fn a_checkpoint_of_anything_else_is_refused_and_the_difference_named() {
 }
 
 #[test]
+fn a_checkpoint_is_overwritten_only_by_what_goes_on_with_it() {
+    let folder = Folder::new();
+    finished(&folder, 16, "");
+    folder.write("b.film", "of another render");
+    let render = format!("{RENDER} b.exr -q --checkpoint b.film");
+    folder.run(&render).fails(2, "the checkpoint b.film is there already");
+    folder.run(&format!("{render} --resume a.film")).fails(2, "the checkpoint b.film is there already");
+    assert!(folder.read("b.film") == b"of another render");
+}
+
+#[test]
 fn what_is_no_checkpoint_is_refused() {
     let folder = Folder::new();
     let resume = || folder.run(&format!("{RENDER} b.exr --resume a.film"));

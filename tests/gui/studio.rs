@@ -76,6 +76,38 @@ fn a_file_with_errors_shows_their_lines_and_keeps_the_last_good_picture() {
 }
 
 #[test]
+fn a_file_that_was_changed_elsewhere_is_not_overwritten() {
+    let desk = Desk::new();
+    let mut studio = opened(&desk);
+    studio.edit(|editable| editable.camera.fov = 0.5);
+    let mistaken = BALLS.replace("Radius: 1\n", "Radius: -1\n");
+    desk.write("balls.yaml", &mistaken);
+    studio.save_scene(None);
+    studio.finish_saving();
+    let notice = studio.notice.clone().expect("a notice");
+    assert!(notice.is_error && notice.text.contains("has changed since it was read"), "{notice:?}");
+    assert_eq!(std::fs::read_to_string(desk.path("balls.yaml")).expect("a file"), mistaken);
+    // Elsewhere it may go.
+    studio.save_scene(Some(&desk.path("other.yaml")));
+    studio.finish_saving();
+    assert!(desk.path("other.yaml").exists());
+}
+
+#[test]
+fn another_scene_has_to_be_asked_for_twice_if_there_are_changes() {
+    let desk = Desk::new();
+    let mut studio = opened(&desk);
+    let other = desk.path("other.yaml");
+    desk.write("other.yaml", BALLS);
+    studio.edit(|editable| editable.camera.fov = 0.5);
+    studio.open(&other);
+    assert!(!studio.document.is_reading() && studio.is_edited());
+    studio.open(&other);
+    until(&mut studio, "the other scene", |studio| studio.document.path.as_ref() == Some(&other));
+    until(&mut studio, "its own camera", |studio| !studio.is_edited());
+}
+
+#[test]
 fn a_file_that_is_missing_is_told() {
     let desk = Desk::new();
     let mut studio = studio();

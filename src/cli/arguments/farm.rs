@@ -18,7 +18,7 @@ pub(in crate::cli) enum FarmCommand {
 #[derive(Debug, clap::Args)]
 pub(in crate::cli) struct FarmArguments {
     /// The number of parts
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1000))]
     parts: u32,
     /// Where the parts go [default: IMAGE.parts]
     #[arg(long, value_name = "FOLDER")]

@@ -2,9 +2,9 @@
 
 use super::values::{AOVS, DEPTHS, choice, stops};
 use crate::error::Error;
-use crate::output::Aov;
+use crate::output::{Aov, Wanted};
 use crate::picture::Depth;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// What to merge, and how the picture is written.
 #[derive(Debug, clap::Args)]
@@ -37,6 +37,18 @@ pub(in crate::cli) struct MergeArguments {
 }
 
 impl MergeArguments {
+    /// The picture.
+    pub(in crate::cli) fn wanted(&self, image: &Path) -> Wanted {
+        Wanted {
+            image: image.to_path_buf(),
+            depth: self.depth,
+            exposure: self.exposure,
+            aov: self.aov.clone(),
+            denoise: self.denoise,
+            stamp: false,
+        }
+    }
+
     /// The parts, and the picture.
     pub(in crate::cli) fn files(&self) -> Result<(&[PathBuf], &PathBuf), Error> {
         match self.files.split_last() {

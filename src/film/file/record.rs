@@ -101,7 +101,7 @@ impl NodeRecord {
             && self.chunks <= MOST_CHUNKS
             && self.first <= MOST_CHUNKS
             && self.first.is_multiple_of(self.chunks)
-            && (1..=self.chunks * chunk).contains(&self.samples)
+            && (1..=self.chunks.saturating_mul(chunk)).contains(&self.samples)
             && (!is_known || counted == Some(self.samples))
             && !matches!(self.greys, GreysRecord::One(scramble) if scramble >= SCRAMBLES);
         if !can_be {

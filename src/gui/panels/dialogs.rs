@@ -157,7 +157,8 @@ impl Dialogs {
 
     /// Asks where the scene goes.
     pub fn save_scene(&mut self, studio: &Studio) {
-        let path = studio.document.path.clone().unwrap_or_else(|| "scene.yaml".into());
+        let loaded = studio.document.loaded.as_ref();
+        let path = loaded.map_or_else(|| "scene.yaml".into(), |loaded| loaded.path.clone());
         self.choice = Some(Choice::new(Purpose::SaveScene, &path));
     }
 
