@@ -45,9 +45,11 @@ pub fn read_text(text: String, path: &Path) -> Result<Loaded, Error> {
 /// As [`scene::load`].
 pub fn read(path: &Path) -> Result<Loaded, Error> {
     // What is no text, or too large for one, gets the message that `load` has for it.
-    match fs::read_to_string(path) {
-        Ok(text) => read_text(text.strip_prefix(MARK).unwrap_or(&text).to_owned(), path),
-        Err(_) => {
+    let is_small = fs::metadata(path).is_ok_and(|found| found.is_file() && found.len() <= LARGEST_TEXT);
+    let text = if is_small { fs::read_to_string(path).ok() } else { None };
+    match text {
+        Some(text) => read_text(text.strip_prefix(MARK).unwrap_or(&text).to_owned(), path),
+        None => {
             let scene = scene::load(path)?;
             let text = String::new();
             let editable = Editable::read(&text, &scene.desc);
@@ -55,6 +57,9 @@ pub fn read(path: &Path) -> Result<Loaded, Error> {
         }
     }
 }
+
+/// The largest file that is read as a text, in bytes; of larger ones `load` says that they are.
+const LARGEST_TEXT: u64 = 1 << 28;
 
 /// The byte-order mark that a file may begin with.
 const MARK: &str = "\u{feff}";
