@@ -69,7 +69,7 @@ const MARK: &str = "\u{feff}";
 /// # Errors
 /// [`Error::Io`].
 pub fn write(path: &Path, text: &str) -> Result<(), Error> {
-    let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
+    let target = whole_path(path);
     let had_mark = fs::read(&target).is_ok_and(|bytes| bytes.starts_with(MARK.as_bytes()));
     let mark = if had_mark { MARK } else { "" };
     let name = target.file_name().unwrap_or_default().to_string_lossy();
@@ -109,8 +109,12 @@ pub fn check_unchanged(loaded: &Loaded, path: &Path) -> Result<(), Error> {
 
 /// Whether two paths lead to one file.
 pub fn same_file(a: &Path, b: &Path) -> bool {
-    let whole = |path: &Path| fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
-    a == b || whole(a) == whole(b)
+    a == b || whole_path(a) == whole_path(b)
+}
+
+/// A path from the root on and without links, or as it is where nothing is there.
+pub fn whole_path(path: &Path) -> PathBuf {
+    fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf())
 }
 
 /// Writes an edited text to a file.

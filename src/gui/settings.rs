@@ -1,5 +1,6 @@
 //! The settings of the renders, and what is kept between runs.
 
+use super::document;
 use crate::accel::Precision;
 use crate::error::Result;
 use crate::render::{AccelKind, Settings};
@@ -226,7 +227,7 @@ impl Kept {
 
     /// Puts a scene at the head of the list.
     pub fn remember(&mut self, path: &Path) {
-        let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
+        let path = document::whole_path(path);
         self.recent.retain(|other| *other != path);
         self.recent.insert(0, path);
         self.recent.truncate(MOST_RECENT);

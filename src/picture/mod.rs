@@ -184,6 +184,17 @@ pub struct Destination {
     depth: Depth,
 }
 
+/// The file that is replaced when something is written to `path`. Errors: a folder, something other than a file.
+pub(crate) fn replaced_file(path: &Path) -> io::Result<PathBuf> {
+    match fs::metadata(path) {
+        Ok(found) if found.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
+        Ok(found) if !found.is_file() => Err(io::Error::other("it is not a regular file")),
+        // The file behind a symbolic link is replaced, not the link.
+        Ok(_) => fs::canonicalize(path),
+        Err(_) => Ok(path.to_path_buf()),
+    }
+}
+
 impl Destination {
     /// Looks whether a picture can be written to `path`, by creating and removing the temporary file beside it. Nothing
     /// that exists is changed. Errors: an unknown extension; a folder that is missing or read-only; a path that is
@@ -195,15 +206,7 @@ impl Destination {
                 .map_err(|why| Error::Unavailable(format!("cannot write {}: {why}", path.display())))?;
         }
         let failed = |source| Error::Io { action: "write the picture".into(), path: path.into(), source };
-        let target = match fs::metadata(path) {
-            Ok(found) if found.is_dir() => return Err(failed(io::ErrorKind::IsADirectory.into())),
-            Ok(found) if !found.is_file() => {
-                return Err(failed(io::Error::other("it is not a regular file")));
-            }
-            // The file behind a symbolic link is replaced, not the link.
-            Ok(_) => fs::canonicalize(path).map_err(failed)?,
-            Err(_) => path.to_path_buf(),
-        };
+        let target = replaced_file(path).map_err(failed)?;
         // Short, whatever the name of the picture, and different for every picture under way.
         let number = NUMBER.fetch_add(1, Ordering::Relaxed);
         let partial = target.with_file_name(format!(".pathtracer-{}-{number}.part", std::process::id()));

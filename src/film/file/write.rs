@@ -2,6 +2,7 @@
 
 use super::{BUFFER, FORMAT, MAGIC};
 use crate::error::{Error, Result};
+use crate::picture::replaced_file;
 use serde::Serialize;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
@@ -20,15 +21,7 @@ impl FilePlace {
     /// exists is changed.
     pub fn new(path: &Path) -> Result<FilePlace> {
         let failed = |source| failed(path, source);
-        let target = match fs::metadata(path) {
-            Ok(found) if found.is_dir() => return Err(failed(io::ErrorKind::IsADirectory.into())),
-            Ok(found) if !found.is_file() => {
-                return Err(failed(io::Error::other("it is not a regular file")));
-            }
-            // The file behind a symbolic link is replaced, not the link.
-            Ok(_) => fs::canonicalize(path).map_err(failed)?,
-            Err(_) => path.to_path_buf(),
-        };
+        let target = replaced_file(path).map_err(failed)?;
         let name = target.file_name().ok_or_else(|| failed(io::ErrorKind::InvalidInput.into()))?;
         let partial =
             target.with_file_name(format!(".{}-{}.part", name.to_string_lossy(), std::process::id()));
