@@ -31,10 +31,10 @@ pub(super) fn show(ui: &mut Ui, studio: &mut Studio, canvas: &Canvas) {
 }
 
 /// The lines of the inspector.
-const NAMES: [&str; 9] =
-    ["Pixel", "Red", "Green", "Blue", "Samples", "Std. error", "Depth", "Normal", "Object"];
+const NAMES: [&str; 10] =
+    ["Pixel", "Red", "Green", "Blue", "Samples", "Std. error", "Depth", "Normal", "Object", "Material"];
 
-fn lines(frame: &Frame, [x, y]: [usize; 2]) -> Option<[(&'static str, String); 9]> {
+fn lines(frame: &Frame, [x, y]: [usize; 2]) -> Option<[(&'static str, String); 10]> {
     let pixel = frame.index(x, y)?;
     let light = frame.light.get(pixel)?;
     let look = frame.look.as_ref();
@@ -45,6 +45,10 @@ fn lines(frame: &Frame, [x, y]: [usize; 2]) -> Option<[(&'static str, String); 9
             frame.loaded.scene.desc.objects.get(object).map_or_else(String::new, |desc| name(object, desc))
         }
         None => "sky".to_owned(),
+    });
+    let material = look.and_then(|look| look.object_at(pixel)).map(|object| {
+        let surface = frame.editable.surfaces.get(object).and_then(Option::as_ref);
+        surface.map_or("of the mesh's file", |surface| surface.kind.name()).to_owned()
     });
     let shown = |value: Option<String>| value.unwrap_or_else(|| "–".into());
     let number = |value: f64| digits(value, 5);
@@ -62,6 +66,7 @@ fn lines(frame: &Frame, [x, y]: [usize; 2]) -> Option<[(&'static str, String); 9
         shown(depth.map(|&depth| digits(depth.into(), 5))),
         shown(normal),
         shown(object),
+        shown(material),
     ];
     let mut lines = NAMES.map(|name| (name, String::new()));
     for (line, value) in lines.iter_mut().zip(values) {
