@@ -56,6 +56,19 @@ fn accelerators(geometry: &Geometry) -> Vec<Named<'_>> {
     all
 }
 
+/// Rays with the same origins whose directions have components of 0, -0, 1e-30 and 1e30, and whose numbers are not finite.
+fn odd() -> [(&'static str, Vec<Ray>); 2] {
+    let mut random = Random::new(4);
+    let mut with = |components: &[f64]| {
+        let mut pick = || components[random.index(components.len())];
+        chords().iter().map(|ray| Ray::new(ray.origin, DVec3::new(pick(), pick(), pick()))).collect()
+    };
+    [
+        ("odd", with(&[0.0, -0.0, 1e-30, -1e-30, 1.0, -1.0, 1e30, -1e30])),
+        ("not finite", with(&[f64::NAN, f64::INFINITY, f64::NEG_INFINITY])),
+    ]
+}
+
 /// Nanoseconds a ray for the closest and for any hit.
 fn measure(accelerator: &dyn Accelerator, rays: &[Ray]) -> [f64; 2] {
     let per_ray = |start: Instant| start.elapsed().as_secs_f64() * 1e9 / rays.len() as f64;
@@ -69,6 +82,12 @@ fn measure(accelerator: &dyn Accelerator, rays: &[Ray]) -> [f64; 2] {
         black_box(accelerator.occluded(ray, f64::INFINITY, PrimitiveId::NONE));
     });
     [closest, per_ray(start)]
+}
+
+fn median(times: &[[f64; 2]], which: usize) -> f64 {
+    let mut values: Vec<f64> = times.iter().map(|time| time[which]).collect();
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
 }
 
 #[test]
@@ -85,13 +104,27 @@ fn nanoseconds_a_ray() {
             }
         }
         println!("{} triangles, on a ball of radius 1e7: {on_a_ball}", geometry.spaces[0].triangles.len());
-        for ((name, _), times) in all.iter().zip(&mut times) {
-            let median = |which: usize| {
-                let mut values: Vec<f64> = times.iter().map(|time| time[which]).collect();
-                values.sort_by(f64::total_cmp);
-                values[ROUNDS / 2]
-            };
-            println!("{name:14} closest {:6.0} ns  any {:6.0} ns", median(0), median(1));
+        for ((name, _), times) in all.iter().zip(&times) {
+            println!("{name:14} closest {:6.0} ns  any {:6.0} ns", median(times, 0), median(times, 1));
+        }
+    }
+}
+
+/// The time of odd rays over that of ordinary ones, whose divisions by zero and denormal numbers might be slow.
+#[test]
+#[ignore = "a measurement"]
+fn odd_rays_over_ordinary_ones() {
+    let ordinary = chords();
+    let geometry = geometry(false);
+    for (what, rays) in odd() {
+        for (name, accelerator) in accelerators(&geometry) {
+            let mut ratios = Vec::new();
+            for _ in 0..ROUNDS {
+                let [odd, other] = [&rays, &ordinary].map(|rays| measure(accelerator.as_ref(), rays));
+                ratios.push([odd[0] / other[0], odd[1] / other[1]]);
+            }
+            let [closest, any] = [0, 1].map(|which| median(&ratios, which));
+            println!("{what:10} {name:14} closest {closest:.2}  any {any:.2}");
         }
     }
 }

@@ -5,4 +5,5 @@ mod coverage;
 mod noise;
 mod picture;
 mod scenes;
+mod slopes;
 mod time;
