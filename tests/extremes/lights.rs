@@ -2,20 +2,13 @@
 
 use crate::support::build::*;
 use pathtracer::math::DVec3;
-use pathtracer::scene::desc::{SceneDesc, ShapeDesc};
+use pathtracer::scene::desc::ShapeDesc;
 use std::f64::consts::PI;
 
 const WIDTH: f64 = 1e-3;
 
 fn measure(samples: u64) -> Measure {
     Measure { samples, bounces: 2, light_sampling: true }
-}
-
-/// The white floor at z = 0, seen at the origin from the side.
-fn lit_floor(light: ShapeDesc, radiance: f64) -> SceneDesc {
-    let floor = square(DVec3::ZERO, 1e-3);
-    let objects = vec![(floor, diffuse(grey(1.0))), (light, glowing(grey(0.0), grey(radiance)))];
-    scene(DVec3::new(-1e-4, 0.0, 1e-4), DVec3::ZERO, objects)
 }
 
 /// The share of a white floor's light that a convex polygon above the horizon gives (Lambert's formula). The angles of

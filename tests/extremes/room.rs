@@ -48,29 +48,3 @@ pub(super) fn room(unit: f64) -> SceneDesc {
     desc.camera.aperture = ApertureDesc::Radius(0.0625 * unit);
     desc
 }
-
-/// Changes every position and every length.
-pub(super) fn edit(desc: &mut SceneDesc, point: impl Fn(DVec3) -> DVec3, length: impl Fn(f64) -> f64) {
-    desc.camera.position = point(desc.camera.position);
-    desc.camera.looking_at = point(desc.camera.looking_at);
-    desc.camera.focus_distance = length(desc.camera.focus_distance);
-    if let ApertureDesc::Radius(radius) = &mut desc.camera.aperture {
-        *radius = length(*radius);
-    }
-    for object in &mut desc.objects {
-        match &mut object.shape {
-            ShapeDesc::Ball { position, radius } => {
-                (*position, *radius) = (point(*position), length(*radius));
-            }
-            ShapeDesc::Box { position, size, .. } => {
-                (*position, *size) = (point(*position), size.map(&length));
-            }
-            ShapeDesc::Rectangle { position, width, height, .. } => {
-                (*position, *width, *height) = (point(*position), length(*width), length(*height));
-            }
-            ShapeDesc::TriangleMesh { position, scale, .. } => {
-                (*position, *scale) = (point(*position), length(*scale));
-            }
-        }
-    }
-}

@@ -1,7 +1,8 @@
 //! A picture depends neither on the unit of length nor on where the scene lies.
 
-use super::room::{edit, room};
+use super::room::room;
 use super::{Alone, kinds, picture, rel_mse, small};
+use crate::support::build::edit_lengths;
 use pathtracer::math::DVec3;
 use pathtracer::render::{Settings, render};
 use pathtracer::world::World;
@@ -17,7 +18,7 @@ fn lengths_times_a_power_of_two_change_no_bit() {
         for exponent in EXPONENTS {
             let mut desc = room(1.0);
             let factor = libm::ldexp(1.0, exponent);
-            edit(&mut desc, |p| p * factor, |l| l * factor);
+            edit_lengths(&mut desc, |p| p * factor, |l| l * factor);
             assert!(picture(&desc, &settings) == expected, "{accel:?} 2^{exponent}");
         }
     }
@@ -34,7 +35,7 @@ fn lengths_beyond_the_range_of_numbers_are_refused_or_change_no_bit() {
     for exponent in (-1000..=1000).step_by(50) {
         let mut desc = room(1.0);
         let factor = libm::ldexp(1.0, exponent);
-        edit(&mut desc, |p| p * factor, |l| l * factor);
+        edit_lengths(&mut desc, |p| p * factor, |l| l * factor);
         let compiled = World::compile(&desc);
         assert_eq!(compiled.is_ok(), exponent.abs() <= HELD, "2^{exponent}");
         let Ok(world) = compiled else { continue };
@@ -50,7 +51,7 @@ fn a_dyadic_translation_changes_no_bit() {
     for accel in kinds() {
         let settings = Settings { accel, ..small(32, 24, 8, 8) };
         let mut desc = room(1.0);
-        edit(&mut desc, |p| p + offset, |l| l);
+        edit_lengths(&mut desc, |p| p + offset, |l| l);
         assert!(picture(&desc, &settings) == picture(&room(1.0), &settings), "{accel:?}");
     }
 }
@@ -65,7 +66,7 @@ fn a_decimal_scene_at_1e7_renders_as_at_the_origin() {
         let expected = picture(&reference, &settings);
         for offset in [DVec3::splat(1e7), DVec3::new(-1e7, 1e7 / 3.0, 1e6), DVec3::new(0.1, 1e7, 0.3)] {
             let mut desc = reference.clone();
-            edit(&mut desc, |p| p + offset, |l| l);
+            edit_lengths(&mut desc, |p| p + offset, |l| l);
             let error = rel_mse(&picture(&desc, &settings), &expected);
             assert!(error < 1e-6, "{accel:?} at {offset}: relMSE {error:e}");
         }

@@ -91,6 +91,39 @@ pub(crate) fn scene(eye: DVec3, target: DVec3, objects: Vec<(ShapeDesc, Material
     }
 }
 
+/// A light above a white floor at z = 0, seen at the origin from the side.
+pub(crate) fn lit_floor(light: ShapeDesc, radiance: f64) -> SceneDesc {
+    let floor = square(DVec3::ZERO, 1e-3);
+    let objects = vec![(floor, diffuse(grey(1.0))), (light, glowing(grey(0.0), grey(radiance)))];
+    scene(DVec3::new(-1e-4, 0.0, 1e-4), DVec3::ZERO, objects)
+}
+
+/// Changes every position and every length.
+pub(crate) fn edit_lengths(desc: &mut SceneDesc, point: impl Fn(DVec3) -> DVec3, length: impl Fn(f64) -> f64) {
+    desc.camera.position = point(desc.camera.position);
+    desc.camera.looking_at = point(desc.camera.looking_at);
+    desc.camera.focus_distance = length(desc.camera.focus_distance);
+    if let ApertureDesc::Radius(radius) = &mut desc.camera.aperture {
+        *radius = length(*radius);
+    }
+    for object in &mut desc.objects {
+        match &mut object.shape {
+            ShapeDesc::Ball { position, radius } => {
+                (*position, *radius) = (point(*position), length(*radius));
+            }
+            ShapeDesc::Box { position, size, .. } => {
+                (*position, *size) = (point(*position), size.map(&length));
+            }
+            ShapeDesc::Rectangle { position, width, height, .. } => {
+                (*position, *width, *height) = (point(*position), length(*width), length(*height));
+            }
+            ShapeDesc::TriangleMesh { position, scale, .. } => {
+                (*position, *scale) = (point(*position), length(*scale));
+            }
+        }
+    }
+}
+
 /// A constant grey sky.
 pub(crate) fn sky(value: f64) -> EnvironmentDesc {
     EnvironmentDesc { sky: grey(value), horizon: grey(value), ground: grey(value), strength: 1.0 }

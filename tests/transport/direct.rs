@@ -5,13 +5,6 @@ use pathtracer::math::DVec3;
 use pathtracer::scene::desc::{EnvironmentDesc, ShapeDesc};
 use std::f64::consts::PI;
 
-/// The white floor at z = 0, seen at the origin from the side.
-fn lit_floor(light: ShapeDesc, radiance: f64) -> pathtracer::scene::desc::SceneDesc {
-    let floor = square(DVec3::ZERO, 1e-3);
-    let objects = vec![(floor, diffuse(grey(1.0))), (light, glowing(grey(0.0), grey(radiance)))];
-    scene(DVec3::new(-1e-4, 0.0, 1e-4), DVec3::ZERO, objects)
-}
-
 /// Reflected radiance of a white Lambertian patch with normal +z at the origin, from a polygon above the horizon that
 /// emits 1 (Lambert's formula: 1 / 2 pi times the sum of the edges' angles times the cosines of their planes).
 fn polygon(corners: &[DVec3]) -> f64 {
