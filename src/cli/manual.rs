@@ -2,6 +2,7 @@
 //! command line itself.
 
 use super::arguments;
+use clap::builder::PossibleValue;
 use clap::{Arg, Command};
 use clap_complete::Shell;
 use clap_mangen::Man;
@@ -52,10 +53,11 @@ pub(super) fn completions(shell: Shell) -> anyhow::Result<u8> {
 
 /// One page for all commands.
 fn roff_page() -> io::Result<Vec<u8>> {
-    let mut command = arguments::command();
+    let mut command = in_lines(arguments::command());
     command.build();
     let source = concat!("pathtracer ", env!("CARGO_PKG_VERSION"));
-    let man = Man::new(command.clone()).source(source).manual("User Commands");
+    // An empty date would be left out, and what follows would take its place.
+    let man = Man::new(command.clone()).title("PATHTRACER").date(" ").source(source).manual("User Commands");
     let mut page = Vec::new();
     man.render_title(&mut page)?;
     man.render_name_section(&mut page)?;
@@ -71,6 +73,20 @@ fn roff_page() -> io::Result<Vec<u8>> {
     list(&mut page, "FILES", &FILES)?;
     list(&mut page, "EXAMPLES", &EXAMPLES)?;
     Ok(page)
+}
+
+/// A command with the names that its options take in one line, not in a list, and so all commands below.
+fn in_lines(command: Command) -> Command {
+    let with_names = |argument: Arg| {
+        let names = argument.get_possible_values();
+        if names.is_empty() || !argument.get_action().takes_values() {
+            return argument;
+        }
+        let names: Vec<&str> = names.iter().map(PossibleValue::get_name).collect();
+        let help = argument.get_help().map(ToString::to_string).unwrap_or_default();
+        argument.help(format!("{help} ({})", names.join(", "))).hide_possible_values(true)
+    };
+    command.mut_args(with_names).mut_subcommands(in_lines)
 }
 
 fn section(page: &mut Vec<u8>, heading: &str, lines: &[&str]) -> io::Result<()> {

@@ -3,6 +3,7 @@
 use super::Folder;
 use std::collections::BTreeSet;
 use std::io::Write;
+use std::path::Path;
 use std::process::{Command, Stdio};
 
 /// Commands whose help names all options that there are.
@@ -38,6 +39,20 @@ fn the_manual_has_all_options_and_commands() {
     }
     for heading in ["NAME", "SYNOPSIS", "DESCRIPTION", "OPTIONS", "COMMANDS", "EXAMPLES"] {
         assert_eq!(page.lines().filter(|line| *line == format!(".SH {heading}")).count(), 1, "{heading}");
+    }
+}
+
+/// The README and the guides beside it.
+#[test]
+fn the_documents_name_all_options() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let text: String = ["README.md", "docs/settings.md", "docs/measuring.md"]
+        .map(|name| std::fs::read_to_string(root.join(name)).expect(name))
+        .concat();
+    for option in all_options() {
+        // Those of clap itself need no words.
+        let is_known = ["--help", "--version"].contains(&option.as_str());
+        assert!(is_known || text.contains(&format!("`{option}")), "{option} is in no document");
     }
 }
 

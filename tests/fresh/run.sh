@@ -90,13 +90,14 @@ try_package() {
         done'
 }
 
-make_root "$folder/$suite"
 case $what in
-render | both) render=yes ;;&
-tests | both) tests=yes ;;&
-render | tests | both) add_rust "$folder/$suite" ;;
+render | tests | both)
+    make_root "$folder/$suite"
+    add_rust "$folder/$suite"
+    ;;
 package)
     if [ -z "$package" ]; then
+        make_root "$folder/$suite"
         add_rust "$folder/$suite"
         build_package "$folder/$suite"
     fi
@@ -108,10 +109,10 @@ package)
     exit 2
     ;;
 esac
-if [ -n "${render:-}" ]; then
+if [ "$what" = render ] || [ "$what" = both ]; then
     timed 'set up and render' "$folder/$suite" "cd /root/pathtracer && $(command_after 'Set up and render:')"
     test -s "$folder/$suite/root/pathtracer/bigBalls.png"
 fi
-if [ -n "${tests:-}" ]; then
+if [ "$what" = tests ] || [ "$what" = both ]; then
     timed 'set up and pass the tests' "$folder/$suite" "cd /root/pathtracer && $(command_after 'Set up and pass the tests:')"
 fi
