@@ -14,7 +14,7 @@ revision="1~deb${VERSION_ID:?not a release of Debian}"
 cargo build --release --locked
 mkdir -p "$folder"
 program=$target/release/pathtracer
-"$program" man > "$folder/pathtracer.1"
+"$program" man | gzip -9n > "$folder/pathtracer.1.gz"
 for shell in bash zsh fish; do "$program" completions "$shell" > "$folder/pathtracer.$shell"; done
 gzip -9nc CHANGELOG.md > "$folder/changelog.gz"
 gzip -9n > "$folder/changelog.Debian.gz" <<END

@@ -11,7 +11,7 @@ const SIDES: [u32; 2] = [48, 256];
 /// Radius of the corners in sides.
 const ROUNDING: f64 = 0.22;
 /// Enough that no noise is seen.
-const SAMPLES: u64 = 2048;
+const SAMPLES: u64 = 1024;
 
 /// Renders the icon in all sizes.
 pub(crate) fn write(root: &Path) -> Result<(), Box<dyn std::error::Error>> {
