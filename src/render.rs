@@ -33,7 +33,8 @@ pub use memory::film_bytes;
 pub use merge::{Merged, merge};
 pub use outlook::Outlook;
 pub use prepared::Prepared;
-pub use recipe::{OF_A_TASK, Recipe};
+pub(crate) use recipe::OF_A_TASK;
+pub use recipe::Recipe;
 pub use saved::{FileKind, FilmFile, Origin, Snapshot, State};
 pub use settings::Settings;
 pub use so_far::SoFar;
@@ -153,6 +154,18 @@ pub trait Watch: Sync {
     fn keep(&self, _snapshot: &Snapshot<'_>) {}
 }
 
+/// Nobody: sees nothing and stops nothing.
+#[derive(Clone, Copy, Debug)]
+pub struct Unwatched;
+
+impl Watch for Unwatched {
+    fn progress(&self, _: &Progress) {}
+
+    fn cancelled(&self) -> bool {
+        false
+    }
+}
+
 /// What a render made.
 #[derive(Debug)]
 pub struct Rendered {
@@ -220,7 +233,7 @@ where
 }
 
 /// Runs `work` in a pool of its own, of as many threads as `settings` say. A panic in any of them becomes an error.
-pub fn in_pool<T: Send>(settings: &Settings, work: impl FnOnce() -> Result<T> + Send) -> Result<T> {
+pub(crate) fn in_pool<T: Send>(settings: &Settings, work: impl FnOnce() -> Result<T> + Send) -> Result<T> {
     let threads = settings.thread_count();
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)

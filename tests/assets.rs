@@ -50,6 +50,28 @@ fn committed_pictures_are_what_the_generator_makes() {
     }
 }
 
+/// What `Cargo.toml` puts into the package for Debian, but for what `packaging/deb.sh` makes first.
+#[test]
+fn files_of_the_package_are_there() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let manifest = std::fs::read_to_string(root.join("Cargo.toml")).expect("Cargo.toml");
+    let assets =
+        manifest.split("[package.metadata.deb]").nth(1).expect("a package").split("assets = [").nth(1);
+    let lines = assets.expect("assets").lines().map(str::trim).take_while(|line| *line != "]");
+    let sources: Vec<&str> = lines.filter_map(|line| line.split('"').nth(1)).collect();
+    assert!(sources.len() > 10, "{sources:?}");
+    for source in sources.into_iter().filter(|source| !source.starts_with("target/")) {
+        let (folder, pattern) = source.rsplit_once('/').expect("a file in a folder");
+        // A pattern has one star.
+        let (start, end) =
+            (pattern.split('*').next().unwrap_or(""), pattern.split('*').next_back().unwrap_or(""));
+        let mut files =
+            std::fs::read_dir(root.join(folder)).expect("a folder").map(|entry| entry.expect("an entry"));
+        let fits = |name: &str| name.starts_with(start) && name.ends_with(end);
+        assert!(files.any(|file| fits(&file.file_name().to_string_lossy())), "there is no {source}");
+    }
+}
+
 #[test]
 fn solid_meshes_are_closed_and_consistently_oriented() {
     for name in ["knight.obj", "tree_bark.obj", "board_light.obj", "board_dark.obj"] {

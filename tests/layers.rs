@@ -42,13 +42,56 @@ fn files(module: &str) -> Vec<PathBuf> {
     found
 }
 
-/// The modules that a file names after `crate::`, but in comments.
+/// The modules of the crate that a file names, but in comments.
 fn used(path: &Path) -> Vec<String> {
-    let text = fs::read_to_string(path).expect("a source file");
+    named(&fs::read_to_string(path).expect("a source file"), depth(path))
+}
+
+/// How many `super::` lead from a file to the crate's root.
+fn depth(path: &Path) -> usize {
+    let below = path.strip_prefix(source()).expect("a file of the source");
+    let is_folder = below.file_stem().is_some_and(|stem| stem == "mod");
+    below.components().count() - usize::from(is_folder)
+}
+
+/// The modules that stand behind `crate::`, or behind as many `super::` as lead to the root, also in groups in braces.
+fn named(text: &str, depth: usize) -> Vec<String> {
     let code = text.lines().map(|line| line.split("//").next().unwrap_or_default());
-    let names = code.flat_map(|line| line.split("crate::").skip(1).map(str::to_owned).collect::<Vec<_>>());
-    let end = |name: &str| name.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(name.len());
-    names.map(|name| name[..end(&name)].to_owned()).collect()
+    let code: String = code.collect::<Vec<_>>().join(" ");
+    let root = "super::".repeat(depth);
+    let behind = |prefix: &str| code.split(prefix).skip(1).flat_map(first_names).collect::<Vec<_>>();
+    [behind("crate::"), behind(&root)].concat()
+}
+
+/// The first name of a path, or of every path of a group in braces.
+fn first_names(path: &str) -> Vec<String> {
+    let name = |path: &str| -> String {
+        path.trim_start().chars().take_while(|&c| c.is_alphanumeric() || c == '_').collect()
+    };
+    let Some(group) = path.strip_prefix('{') else { return vec![name(path)] };
+    let (mut names, mut open) = (vec![name(group)], 1);
+    for (at, c) in group.char_indices() {
+        match c {
+            '{' => open += 1,
+            '}' => open -= 1,
+            ',' if open == 1 => names.push(name(&group[at + 1..])),
+            _ => {}
+        }
+        if open == 0 {
+            break;
+        }
+    }
+    names
+}
+
+#[test]
+fn grouped_imports_and_paths_from_the_root_are_seen() {
+    let text = "use crate::{film::{Film, Sums}, world::World,\n    render};\nuse super::super::cli;\nuse super::near; // crate::gui";
+    assert_eq!(named(text, 2), ["film", "world", "render", "cli"]);
+    assert_eq!(named("crate::error::Result<crate::math::Rgb>", 1), ["error", "math"]);
+    assert_eq!(depth(&source().join("world/light/mod.rs")), 2);
+    assert_eq!(depth(&source().join("world/sky.rs")), 2);
+    assert_eq!(depth(&source().join("render.rs")), 1);
 }
 
 #[test]
@@ -75,6 +118,25 @@ fn modules_use_only_those_above_them() {
         }
     }
     assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+/// Where `unsafe` may be, below `src/`; the README lists the same.
+const UNSAFE: [&str; 5] =
+    ["accel/embree/", "accel/bvh/simd/", "picture/oiio.rs", "picture/denoise.rs", "memory.rs"];
+
+#[test]
+fn unsafe_code_is_only_where_the_readme_says() {
+    let readme = Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
+    let readme = fs::read_to_string(readme).expect("README.md");
+    for place in UNSAFE {
+        assert!(readme.contains(&format!("`src/{place}`")), "the README does not list {place}");
+    }
+    for path in modules().iter().flat_map(|module| files(module)) {
+        let below = path.strip_prefix(source()).expect("a file of the source").display().to_string();
+        // The lint denies it elsewhere.
+        let allows = fs::read_to_string(&path).expect("a source file").contains("allow(unsafe_code)");
+        assert!(!allows || UNSAFE.iter().any(|place| below.starts_with(place)), "unsafe code in {below}");
+    }
 }
 
 #[test]

@@ -6,7 +6,10 @@ mod support;
 /// The order of the modules, and the length of files.
 mod layers;
 
-/// The committed meshes and scenes are what their generator makes.
+/// The links of the README and the guides.
+mod documents;
+
+/// The committed meshes and scenes are what their generator makes; the files of the package are there.
 mod assets;
 /// The makers of the committed meshes and scenes.
 mod generate;

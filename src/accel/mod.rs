@@ -3,6 +3,32 @@
 //! An accelerator is a [`Kernel`], which finds candidates, behind the front that all of them share: it refuses rays
 //! that are not finite, tries the few large solids, brings the ray into the kernel's f32 spaces and compares what comes
 //! back by the key of [`crate::geometry`].
+//!
+//! ```
+//! use pathtracer::accel::bvh::Bvh;
+//! use pathtracer::accel::{Accelerator, BuildOptions};
+//! use pathtracer::geometry::{PrimitiveId, Ray};
+//! use pathtracer::math::DVec3;
+//! use pathtracer::{scene, world::World};
+//! use std::path::Path;
+//!
+//! # fn main() -> pathtracer::error::Result<()> {
+//! let text = "
+//! Camera: { Position: [-6, 0, 0], LookingAt: [0, 0, 0], Fov: 0.25, FocusDistance: 6 }
+//! Objects:
+//!   - Object: { Type: Ball, Position: [0, 0, 0], Radius: 2, Material: { Type: Diffuse } }
+//! ";
+//! let world = World::compile(&scene::parse(text, Path::new("ball.yaml"))?.desc)?;
+//! let bvh = Bvh::build(&world.geometry, &BuildOptions::default())?;
+//! let ray = Ray::new(DVec3::new(-5.0, 0.0, 0.0), DVec3::X);
+//!
+//! let hit = bvh.intersect(&ray).expect("the ball is in the way");
+//! assert_eq!((hit.t, hit.object), (3.0, 0));
+//! assert!(bvh.occluded(&ray, f64::INFINITY, PrimitiveId::NONE));
+//! assert!(!bvh.occluded(&ray, 2.5, PrimitiveId::NONE));
+//! # Ok(())
+//! # }
+//! ```
 
 pub mod brute_force;
 pub mod bvh;

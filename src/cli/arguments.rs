@@ -26,12 +26,14 @@ use crate::render::{
 };
 use crate::sampling::SamplerKind;
 use clap::{CommandFactory, FromArgMatches, Parser};
+use clap_complete::Shell;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 use std::time::Duration;
 use values::{
-    AOVS, DEPTHS, SAMPLERS, SWITCH, choice, chunks, crop, part, positive, stops, time, whole, whole_or_none,
+    AOVS, DEPTHS, SAMPLERS, SHELLS, SWITCH, choice, chunks, crop, part, positive, stops, time, whole,
+    whole_or_none,
 };
 
 /// The positional arguments of a render, as messages name them.
@@ -49,16 +51,7 @@ static VERSION: LazyLock<String> = LazyLock::new(|| {
     version = VERSION.as_str(),
     about = "Renders a scene by path tracing",
     after_help = EXIT_CODES,
-    override_usage = "pathtracer [OPTIONS] SCENE WIDTH HEIGHT SAMPLES BOUNCES IMAGE\n       \
-                      pathtracer [gui] [SCENE]\n       \
-                      pathtracer check SCENE...\n       \
-                      pathtracer compare [OPTIONS] SCENE\n       \
-                      pathtracer bench [OPTIONS] [SCENE | OBJ]\n       \
-                      pathtracer tradeoff [OPTIONS] SCENE\n       \
-                      pathtracer diff [OPTIONS] PICTURE REFERENCE\n       \
-                      pathtracer info PICTURE\n       \
-                      pathtracer merge [OPTIONS] PART... IMAGE\n       \
-                      pathtracer farm export|slurm --parts N [OPTIONS] SCENE WIDTH HEIGHT SAMPLES BOUNCES IMAGE",
+    override_usage = USAGE,
     args_conflicts_with_subcommands = true,
     disable_help_subcommand = true
 )]
@@ -69,7 +62,22 @@ pub(super) struct Arguments {
     pub(super) render: RenderArguments,
 }
 
-const EXIT_CODES: &str = "A scene that is named like a command is reached by ./NAME.\n\
+/// Every way to call the program; the lines stand below each other behind `Usage: `.
+const USAGE: &str = "pathtracer [OPTIONS] SCENE WIDTH HEIGHT SAMPLES BOUNCES IMAGE\n\
+    \x20      pathtracer [gui] [SCENE]\n\
+    \x20      pathtracer check SCENE...\n\
+    \x20      pathtracer compare [OPTIONS] SCENE\n\
+    \x20      pathtracer bench [OPTIONS] [SCENE | OBJ]\n\
+    \x20      pathtracer tradeoff [OPTIONS] SCENE\n\
+    \x20      pathtracer diff [OPTIONS] PICTURE REFERENCE\n\
+    \x20      pathtracer info PICTURE\n\
+    \x20      pathtracer merge [OPTIONS] PART... IMAGE\n\
+    \x20      pathtracer farm export|slurm --parts N [OPTIONS] SCENE WIDTH HEIGHT SAMPLES BOUNCES IMAGE\n\
+    \x20      pathtracer completions bash|zsh|fish\n\
+    \x20      pathtracer man";
+
+/// What stands below all help.
+pub(super) const EXIT_CODES: &str = "A scene that is named like a command is reached by ./NAME.\n\
     Exit codes: 0 done, 1 failure, 2 usage, 3 bad scene, 4 hits or pictures differ (compare, diff),\n\
     5 the time of --time was up before the error of --noise was reached, 130 and 143 interrupted.";
 
@@ -109,6 +117,16 @@ pub(super) enum Command {
         #[arg(value_name = "PICTURE")]
         picture: PathBuf,
     },
+    /// Print the completions of a shell
+    #[command(override_usage = "pathtracer completions bash|zsh|fish")]
+    Completions {
+        /// The shell
+        #[arg(value_name = "SHELL", value_parser = choice(&SHELLS))]
+        shell: Shell,
+    },
+    /// Print the page of the manual, for man -l
+    #[command(override_usage = "pathtracer man")]
+    Man,
 }
 
 /// A render as it was typed.
@@ -272,6 +290,11 @@ impl Job {
     }
 }
 
+/// The definition of the command line.
+pub(super) fn command() -> clap::Command {
+    Arguments::command()
+}
+
 impl Arguments {
     /// Parses a command line, the program's name first.
     pub(super) fn parse(arguments: &[OsString]) -> anyhow::Result<Arguments> {
@@ -370,12 +393,7 @@ impl RenderArguments {
 
 /// A message with the usage.
 pub(super) fn usage(message: &str) -> Error {
-    Error::Usage(format!(
-        "{message}\n\nUsage: pathtracer [OPTIONS] {}\n       pathtracer [gui] [SCENE]\n       pathtracer check SCENE...\n       \
-         pathtracer compare [OPTIONS] SCENE\n       pathtracer bench [OPTIONS] [SCENE | OBJ]\n       \
-         pathtracer tradeoff [OPTIONS] SCENE\n       pathtracer diff [OPTIONS] PICTURE REFERENCE\n       pathtracer info PICTURE\n       pathtracer merge [OPTIONS] PART... IMAGE\n       pathtracer farm export|slurm --parts N [OPTIONS] SCENE WIDTH HEIGHT SAMPLES BOUNCES IMAGE\n\nFor more information, try '--help'.",
-        POSITIONALS.join(" ")
-    ))
+    Error::Usage(format!("{message}\n\nUsage: {USAGE}\n\nFor more information, try '--help'."))
 }
 
 /// What to say if the first word stands where a scene would, is no file and looks like a command.

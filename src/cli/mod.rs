@@ -17,6 +17,7 @@ mod findings;
 mod info;
 mod interrupt;
 mod keeper;
+mod manual;
 mod merge;
 mod plot_file;
 mod progress;
@@ -47,6 +48,8 @@ pub fn run(arguments: &[OsString], window: &Window) -> anyhow::Result<u8> {
         Some(Command::Merge(arguments)) => merge::run(&arguments),
         Some(Command::Farm(command)) => farm::run(command),
         Some(Command::Info { picture }) => info::run(&picture),
+        Some(Command::Completions { shell }) => manual::completions(shell),
+        Some(Command::Man) => manual::page(),
         None if arguments.len() == 1 => open(window, None),
         None => match (arguments, render.only_scene()) {
             ([_, _], Some(scene)) => open(window, Some(scene)),

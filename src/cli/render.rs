@@ -14,9 +14,10 @@ use crate::output::{self, Aov, Provenance, Target};
 use crate::picture::{Destination, Format};
 use crate::render::{Ended, Estimate, Origin, Recipe, Rendered, View, in_pool, resume};
 use crate::scene;
+use crate::study::rounds::timed;
 use crate::world::World;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// The exit code of a picture that is noisier than asked for because the time was up.
 const NOISE_MISSED: u8 = 5;
@@ -272,11 +273,4 @@ fn error(error: &PictureError) -> String {
         digits(mean.high - mean.value, 2),
         if *is_doubtful { ", doubtful: a few pixels carry most of it" } else { "" }
     )
-}
-
-/// A result and the seconds that it took.
-fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
-    let start = Instant::now();
-    let result = work();
-    (result, start.elapsed().as_secs_f64())
 }

@@ -4,14 +4,18 @@ use std::env;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The scenes of the first folder `scenes` in the working directory, or beside the program or above it.
+/// Where a package installs the examples, below the folder that holds its `bin`.
+const INSTALLED: &str = "share/doc/pathtracer/examples/scenes";
+
+/// The scenes of the first folder `scenes` in the working directory, or beside the program or above it, or where a package
+/// installs them.
 pub fn find() -> Vec<PathBuf> {
     let here = env::current_dir().ok();
     let program = env::current_exe().ok();
     let folders =
         here.iter().map(PathBuf::as_path).chain(program.iter().flat_map(|program| program.ancestors()));
     folders
-        .map(|folder| scenes_in(&folder.join("scenes")))
+        .flat_map(|folder| ["scenes", INSTALLED].map(|below| scenes_in(&folder.join(below))))
         .find(|scenes| !scenes.is_empty())
         .unwrap_or_default()
 }

@@ -1,6 +1,6 @@
 //! How much light arrives, and what is seen?
 
-pub mod caustic;
+mod caustic;
 mod counters;
 mod features;
 mod numbers;

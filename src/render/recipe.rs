@@ -59,7 +59,7 @@ pub(super) const RESUMABLE: [&str; 4] = ["scene", "samples", "scramble_length", 
 /// What may differ between the parts of a picture.
 pub(super) const OF_PARTS: [&str; 5] = ["scene", "scramble_length", "region", "chunks", "features"];
 /// What may differ between a part and the task that would make it.
-pub const OF_A_TASK: [&str; 2] = ["scene", "scramble_length"];
+pub(crate) const OF_A_TASK: [&str; 2] = ["scene", "scramble_length"];
 
 impl Recipe {
     /// Of a render of the scene in the file `scene`.

@@ -4,7 +4,7 @@ use super::contender::{self, Contender, Kind, Pools, build_options};
 use super::machine::Machine;
 use super::rays::{RaySet, Sphere};
 use super::record::{Recording, rays_of_paths};
-use super::rounds::{Nobody, Spread};
+use super::rounds::Spread;
 use super::table::Figure;
 use super::tally::{Tally, against_brute_force, tally};
 use super::triangles;
@@ -13,7 +13,7 @@ use crate::accel::bvh::Bvh;
 use crate::accel::{Isa, Precision};
 use crate::error::Result;
 use crate::math::Rgb;
-use crate::render::{AccelKind, Settings, render};
+use crate::render::{AccelKind, Settings, Unwatched, render};
 use crate::scene::desc::CameraDesc;
 use crate::world::World;
 
@@ -177,7 +177,7 @@ fn pictures(world: &World, camera: &CameraDesc, options: &Options) -> Result<Pic
             seed,
             ..Settings::new(width, height, PICTURE_SAMPLES, bounces)
         };
-        Ok(render(world, camera, &settings, &Nobody)?.film.means().collect())
+        Ok(render(world, camera, &settings, &Unwatched)?.film.means().collect())
     };
     let (embree, native): (Vec<Rgb>, Vec<Rgb>) = (means(AccelKind::Embree)?, means(AccelKind::Native)?);
     let mut difference = PictureDifference {

@@ -1,6 +1,5 @@
 //! Measurements that are repeated in turn, so that whatever else the machine does hits all alike.
 
-use crate::render::{Progress, Watch};
 use serde::Serialize;
 use std::time::Instant;
 
@@ -67,15 +66,4 @@ pub fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
 pub fn geometric_mean(values: impl Iterator<Item = f64>) -> f64 {
     let (sum, count) = values.fold((0.0, 0), |(sum, count), value| (sum + value.ln(), count + 1));
     if count > 0 { (sum / f64::from(count)).exp() } else { 0.0 }
-}
-
-/// Nobody watches the renders of a measurement.
-pub(super) struct Nobody;
-
-impl Watch for Nobody {
-    fn progress(&self, _: &Progress) {}
-
-    fn cancelled(&self) -> bool {
-        false
-    }
 }

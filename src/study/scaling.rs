@@ -6,13 +6,13 @@
 mod scenes;
 
 use super::plot::chart::{Chart, Guide, Mark, Point, Scale, Series, Sheet};
-use super::rounds::{Nobody, Spread, interleaved};
+use super::rounds::{Spread, interleaved};
 use super::statistics::slope;
 use super::table::{Table, grouped, short};
 use crate::accel::Isa;
 use crate::error::Result;
 use crate::output::linear_floats;
-use crate::render::{Rendered, Settings, render};
+use crate::render::{Rendered, Settings, Unwatched, render};
 use crate::scene::desc::SceneDesc;
 use crate::study::metrics::relative_weight;
 use crate::world::World;
@@ -149,7 +149,7 @@ pub fn run(kind: Kind, options: &Options) -> Result<Growth> {
     let mut failure = None;
     let seconds = interleaved(options.rounds, &mut subjects, |subject| {
         let settings = Settings { seed: subject.pictures.len() as u64, ..subject.settings.clone() };
-        match render(&subject.world, &subject.desc.camera, &settings, &Nobody) {
+        match render(&subject.world, &subject.desc.camera, &settings, &Unwatched) {
             Ok(rendered) => {
                 subject.pictures.push(linear_floats(&rendered.film));
                 nanoseconds(&rendered)

@@ -22,7 +22,7 @@ mod varied;
 pub use camera::Camera;
 pub use requires::Requires;
 pub use sky::{Sky, SkyKind};
-pub use smooth_balls::{MOST_SMOOTH_BALLS, SmoothBall};
+pub(crate) use smooth_balls::{MOST_SMOOTH_BALLS, SmoothBall};
 
 use crate::geometry::{Geometry, Hit, Ray};
 use crate::material::Material;

@@ -7,24 +7,24 @@ use crate::math::Rgb;
 
 /// A mirror or glass ball whose surface is smooth and has the same colour everywhere.
 #[derive(Clone, Copy, Debug)]
-pub struct SmoothBall {
+pub(crate) struct SmoothBall {
     /// Where it is, in world space.
-    pub ball: Ball,
+    pub(crate) ball: Ball,
     /// Index of the solid.
-    pub solid: u32,
+    pub(crate) solid: u32,
     /// Factor at every interface.
-    pub color: Rgb,
+    pub(crate) color: Rgb,
     /// n outside / n inside, below 1; `None` of a mirror.
-    pub ratio: Option<f64>,
+    pub(crate) ratio: Option<f64>,
 }
 
 /// With more of them the light is left to chance: the one that is asked would seldom be the right one.
-pub const MOST_SMOOTH_BALLS: usize = 16;
+pub(crate) const MOST_SMOOTH_BALLS: usize = 16;
 
 impl World {
     /// The balls by way of which light is sought; none if there are no lights to find, or more than
     /// [`MOST_SMOOTH_BALLS`].
-    pub fn smooth_balls(&self) -> Vec<SmoothBall> {
+    pub(crate) fn smooth_balls(&self) -> Vec<SmoothBall> {
         if self.lights.count() == 0 {
             return Vec::new();
         }

@@ -10,6 +10,7 @@ mod findings;
 mod information;
 mod interrupt;
 mod json;
+mod manual;
 mod parts;
 mod pictures;
 mod provenance;

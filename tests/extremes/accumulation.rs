@@ -1,11 +1,10 @@
 //! Sums of very many samples.
 
-use super::Alone;
 use crate::support::double_double::DoubleDouble;
 use crate::support::random::Random;
 use pathtracer::film::{Film, Sums};
 use pathtracer::math::Rgb;
-use pathtracer::render::{Settings, accumulate};
+use pathtracer::render::{Settings, Unwatched, accumulate};
 
 /// A long run of samples of one pixel: the mean that the film gives, and the exact one.
 fn assert_mean_of(what: &str, chunks: u64, chunk: u64, mut sample: impl FnMut() -> f64) {
@@ -69,7 +68,7 @@ fn samples_that_are_not_finite_are_counted_and_fireflies_kept() {
         12 => Rgb::splat(1e30),
         _ => Rgb::ONE,
     };
-    let rendered = accumulate(&settings, &Alone, sample).expect("a render");
+    let rendered = accumulate(&settings, &Unwatched, sample).expect("a render");
     assert_eq!(rendered.counters.dropped, 3 * 2 * 64);
     assert_eq!(rendered.counters.fireflies, 2 * 64);
     // Of 2000 samples two are fireflies; the dropped ones count as black.

@@ -29,7 +29,7 @@ use pathtracer::accel::{Accelerator, BuildOptions, Precision};
 use pathtracer::geometry::{Geometry, Hit, PrimitiveId, Ray};
 use pathtracer::integrator::{Counters, PathTracer};
 use pathtracer::math::Rgb;
-use pathtracer::render::{AccelKind, Progress, Rendered, Settings, Watch, render};
+use pathtracer::render::{AccelKind, Rendered, Settings, Unwatched, render};
 use pathtracer::sampling::{Independent, Sampler};
 use pathtracer::scene::desc::SceneDesc;
 use pathtracer::world::World;
@@ -78,17 +78,6 @@ fn kinds() -> Vec<AccelKind> {
     }
 }
 
-/// Nobody follows.
-struct Alone;
-
-impl Watch for Alone {
-    fn progress(&self, _: &Progress) {}
-
-    fn cancelled(&self) -> bool {
-        false
-    }
-}
-
 /// Settings of a small picture on one thread.
 fn small(width: u32, height: u32, samples: u64, bounces: u32) -> Settings {
     let precision = Precision::Exact;
@@ -97,7 +86,7 @@ fn small(width: u32, height: u32, samples: u64, bounces: u32) -> Settings {
 
 fn rendered(desc: &SceneDesc, settings: &Settings) -> Rendered {
     let world = World::compile(desc).expect("a valid scene");
-    render(&world, &desc.camera, settings, &Alone).expect("a render")
+    render(&world, &desc.camera, settings, &Unwatched).expect("a render")
 }
 
 /// The means of all pixels of a picture without dropped samples.

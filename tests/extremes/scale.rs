@@ -1,10 +1,10 @@
 //! A picture depends neither on the unit of length nor on where the scene lies.
 
 use super::room::room;
-use super::{Alone, kinds, picture, rel_mse, small};
+use super::{kinds, picture, rel_mse, small};
 use crate::support::build::edit_lengths;
 use pathtracer::math::DVec3;
-use pathtracer::render::{Settings, render};
+use pathtracer::render::{Settings, Unwatched, render};
 use pathtracer::world::World;
 
 /// Powers of two that leave every number of the room in range.
@@ -39,7 +39,7 @@ fn lengths_beyond_the_range_of_numbers_are_refused_or_change_no_bit() {
         let compiled = World::compile(&desc);
         assert_eq!(compiled.is_ok(), exponent.abs() <= HELD, "2^{exponent}");
         let Ok(world) = compiled else { continue };
-        let rendered = render(&world, &desc.camera, &settings, &Alone).expect("a render");
+        let rendered = render(&world, &desc.camera, &settings, &Unwatched).expect("a render");
         let pixels: Vec<DVec3> = rendered.film.means().collect();
         assert!(pixels == expected, "2^{exponent}");
     }

@@ -1,20 +1,24 @@
 #!/usr/bin/env bash
-# tests/fresh/run.sh SUITE [FOLDER]: the README's two commands on a Debian SUITE (bookworm or trixie) that has nothing but
-# Rust, in a root made by debootstrap under FOLDER, each with its seconds. Needs root, debootstrap and a Rust toolchain of
-# rustup here, which the new root borrows. A root that is there already is used again: then the first command is not timed
-# from nothing. Certificates and cargo's settings of this machine are passed on, so that mirrors work there too.
+# tests/fresh/run.sh SUITE [FOLDER [WHAT [DEB]]]: what the README promises on a Debian SUITE (bookworm or trixie) that has
+# nothing but Rust, in a root made by debootstrap under FOLDER, each with its seconds. WHAT:
+#   render    the README's first command
+#   tests     the README's second command
+#   both      these two (the default)
+#   package   packaging/deb.sh in that root; or nothing there, but the package DEB: then it is installed in a clean root
+#             without Rust, and renders an example as a user would
+# Needs root, debootstrap and a Rust toolchain of rustup here, which the new root borrows. A root that is there already is
+# used again: then the first command is not timed from nothing. Certificates and cargo's settings of this machine are
+# passed on, so that mirrors work there too.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 
-suite=${1:?usage: tests/fresh/run.sh SUITE [FOLDER]}
+suite=${1:?usage: tests/fresh/run.sh SUITE [FOLDER [render|tests|both|package [DEB]]]}
 folder=${2:-$(mktemp -d)}
-root=$folder/$suite
+what=${3:-both}
+package=${4:-}
 rustup=${RUSTUP_HOME:-$HOME/.rustup}
 cargo=${CARGO_HOME:-$HOME/.cargo}
 
-if [ ! -e "$root/etc/debian_version" ]; then
-    debootstrap --variant=minbase --include=ca-certificates "$suite" "$root" >/dev/null
-fi
 mounted=()
 unmount() { for place in "${mounted[@]}"; do umount "$place"; done; }
 trap unmount EXIT
@@ -23,30 +27,92 @@ borrow() {
     mount "${@:3}" "$1" "$2"
     mounted=("$2" "${mounted[@]}")
 }
-borrow proc "$root/proc" -t proc
-borrow /dev "$root/dev" --bind
-borrow "$rustup" "$root/root/.rustup" -o bind,ro
-mkdir -p "$root/root/.cargo/bin"
-cp -a "$cargo/bin/." "$root/root/.cargo/bin/"
-if [ -e "$cargo/config.toml" ]; then cp "$cargo/config.toml" "$root/root/.cargo/"; fi
-for file in /etc/resolv.conf /etc/hosts /etc/ssl/certs/ca-certificates.crt; do
-    if [ -e "$file" ]; then cp -L "$file" "$root$file"; fi
-done
-
-rm -rf "$root/root/pathtracer"
-git clone --quiet . "$root/root/pathtracer"
+# A root with the network of this machine, and nothing else.
+make_root() {
+    if [ ! -e "$1/etc/debian_version" ]; then
+        debootstrap --variant=minbase --include=ca-certificates "$suite" "$1" >/dev/null
+    fi
+    borrow proc "$1/proc" -t proc
+    borrow /dev "$1/dev" --bind
+    for file in /etc/resolv.conf /etc/hosts /etc/ssl/certs/ca-certificates.crt; do
+        if [ -e "$file" ]; then cp -L "$file" "$1$file"; fi
+    done
+}
+# The toolchain and the project.
+add_rust() {
+    borrow "$rustup" "$1/root/.rustup" -o bind,ro
+    mkdir -p "$1/root/.cargo/bin"
+    cp -a "$cargo/bin/." "$1/root/.cargo/bin/"
+    if [ -e "$cargo/config.toml" ]; then cp "$cargo/config.toml" "$1/root/.cargo/"; fi
+    rm -rf "$1/root/pathtracer"
+    git clone --quiet . "$1/root/pathtracer"
+}
 # The code block after a line of the README, without the sudo that root does not need.
 command_after() {
     awk -v line="$1" '$0 == line { found = 1 } found && /^```$/ { exit } found && inside { print } found && /^```sh$/ { inside = 1 }' \
         README.md | sed 's/sudo //g'
 }
+# timed NAME ROOT COMMANDS: runs them there with an empty environment, and says how long it took.
 timed() {
     local start=$SECONDS
     env -i HOME=/root TERM=dumb DEBIAN_FRONTEND=noninteractive CARGO_TARGET_DIR=/root/target \
         PATH=/root/.cargo/bin:/usr/sbin:/usr/bin:/sbin:/bin \
-        "$(command -v chroot)" "$root" bash -euo pipefail -c "cd /root/pathtracer && $2"
+        "$(command -v chroot)" "$2" bash -euo pipefail -c "$3"
     printf '%s on %s: %d s\n' "$1" "$suite" "$((SECONDS - start))"
 }
-timed 'set up and render' "$(command_after 'Set up and render:')"
-test -s "$root/root/pathtracer/bigBalls.png"
-timed 'set up and pass the tests' "$(command_after 'Set up and pass the tests:')"
+build_package() {
+    timed 'build the package' "$1" "
+        apt-get -qq update
+        apt-get -qq install -y build-essential libclang-dev libembree-dev libopenimageio-dev pkg-config
+        cargo install --quiet cargo-deb --locked
+        cd /root/pathtracer && packaging/deb.sh"
+    package=$(echo "$1"/root/target/debian/pathtracer_*.deb)
+}
+# Installs the package where there is no compiler, and uses it as somebody who is not root.
+try_package() {
+    cp "$package" "$1/tmp/pathtracer.deb"
+    timed 'install the package' "$1" 'apt-get -qq update && apt-get -qq install -y /tmp/pathtracer.deb'
+    # shellcheck disable=SC2016
+    timed 'render an example' "$1" '
+        id user >/dev/null 2>&1 || useradd --create-home user
+        su user -c "
+            set -eu
+            cd
+            examples=/usr/share/doc/pathtracer/examples/scenes
+            pathtracer --version
+            pathtracer check \$examples/*.yaml
+            pathtracer \$examples/objectScene.yaml 320 320 8 10 objectScene.png
+            pathtracer \$examples/gallery.yaml 320 240 8 10 gallery.jpg
+            pathtracer info gallery.jpg >/dev/null
+            test -s objectScene.png -a -s gallery.jpg"
+        for file in man/man1/pathtracer.1.gz bash-completion/completions/pathtracer applications/pathtracer.desktop; do
+            test -s /usr/share/$file
+        done'
+}
+
+case $what in
+render | tests | both)
+    make_root "$folder/$suite"
+    add_rust "$folder/$suite"
+    ;;
+package)
+    if [ -z "$package" ]; then
+        make_root "$folder/$suite"
+        add_rust "$folder/$suite"
+        build_package "$folder/$suite"
+    fi
+    make_root "$folder/$suite-package"
+    try_package "$folder/$suite-package"
+    ;;
+*)
+    echo "unknown: $what" >&2
+    exit 2
+    ;;
+esac
+if [ "$what" = render ] || [ "$what" = both ]; then
+    timed 'set up and render' "$folder/$suite" "cd /root/pathtracer && $(command_after 'Set up and render:')"
+    test -s "$folder/$suite/root/pathtracer/bigBalls.png"
+fi
+if [ "$what" = tests ] || [ "$what" = both ]; then
+    timed 'set up and pass the tests' "$folder/$suite" "cd /root/pathtracer && $(command_after 'Set up and pass the tests:')"
+fi

@@ -20,21 +20,22 @@ pub(super) struct Blocks {
 }
 
 impl Blocks {
-    /// From the pixels of independent renders of equal numbers of samples.
+    /// From the pixels of independent renders of equal numbers of samples, `width` pixels wide.
     ///
     /// Pixels are independent of each other, so a block's variance is the sum of its pixels' variances: of K renders it
     /// has 64 (K - 1) degrees of freedom, and the quotient below is normal but for the tails of the samples themselves.
-    pub(super) fn of_renders(renders: &[Vec<Rgb>]) -> Blocks {
+    pub(super) fn of_renders(renders: &[Vec<Rgb>], width: usize) -> Blocks {
         let count = renders.len() as f64;
-        let mut mean = vec![0.0; BLOCKS * BLOCKS * 3];
+        let pixels = renders[0].len();
+        let mut mean = vec![0.0; pixels / (BLOCK * BLOCK) * 3];
         let mut variance = mean.clone();
-        for pixel in 0..SIDE * SIDE {
+        for pixel in 0..pixels {
             let of_pixel = || renders.iter().map(|render| render[pixel]);
             let average = of_pixel().sum::<Rgb>() / count;
             let squares: Rgb = of_pixel().map(|value| (value - average) * (value - average)).sum();
             let of_average = squares / ((count - 1.0) * count);
             for channel in 0..3 {
-                let at = block_of(pixel) * 3 + channel;
+                let at = block_of(pixel, width) * 3 + channel;
                 mean[at] += average[channel] / (BLOCK * BLOCK) as f64;
                 variance[at] += of_average[channel] / (BLOCK * BLOCK * BLOCK * BLOCK) as f64;
             }
@@ -43,9 +44,9 @@ impl Blocks {
     }
 }
 
-/// The block that holds a pixel.
-fn block_of(pixel: usize) -> usize {
-    pixel / SIDE / BLOCK * BLOCKS + pixel % SIDE / BLOCK
+/// The block that holds a pixel of a picture.
+fn block_of(pixel: usize, width: usize) -> usize {
+    pixel / width / BLOCK * (width / BLOCK) + pixel % width / BLOCK
 }
 
 /// Of the blocks of one picture: means, and variances of the pixels within the block.
@@ -53,7 +54,7 @@ pub(super) fn within_blocks(pixels: &[Rgb]) -> (Channels, Channels) {
     let size = (BLOCK * BLOCK) as f64;
     let mut mean = vec![0.0; BLOCKS * BLOCKS * 3];
     let mut variance = mean.clone();
-    let each = || (0..SIDE * SIDE * 3).map(|i| (block_of(i / 3) * 3 + i % 3, pixels[i / 3][i % 3]));
+    let each = || (0..SIDE * SIDE * 3).map(|i| (block_of(i / 3, SIDE) * 3 + i % 3, pixels[i / 3][i % 3]));
     each().for_each(|(at, value)| mean[at] += value / size);
     each().for_each(|(at, value)| variance[at] += (value - mean[at]) * (value - mean[at]) / (size - 1.0));
     (mean, variance)

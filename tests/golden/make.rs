@@ -1,6 +1,6 @@
 //! Makes the files of this folder from references of full size.
 
-use super::blocks::{BLOCK, BLOCKS, Blocks, Channels, within_blocks};
+use super::blocks::{BLOCK, BLOCKS, Blocks, Channels, SIDE, within_blocks};
 use super::{Golden, SCENES, pixels_of};
 use pathtracer::math::Rgb;
 use pathtracer::picture::{Destination, Pixels};
@@ -36,7 +36,7 @@ fn standard_errors(golden: &Golden, reference: &[Rgb], mse: f64) -> Channels {
     let seeds = 1000..1016;
     let renders: Vec<Vec<Rgb>> =
         seeds.map(|seed| golden.render(golden.bounces, seed, 8, SamplerKind::Independent)).collect();
-    let own = Blocks::of_renders(&renders);
+    let own = Blocks::of_renders(&renders, SIDE);
     let pixels = (BLOCK * BLOCK) as f64;
     let scale = mse / pixels / (own.variance.iter().sum::<f64>() / own.variance.len() as f64);
     let average =

@@ -1,7 +1,9 @@
-//! Whole pictures against references that another renderer made; `README.md` beside this file says how.
+//! Whole pictures against references that another renderer made, and the sample scenes against what this program made of
+//! them; `README.md` beside this file says how.
 
 mod blocks;
 mod make;
+mod samples;
 
 use crate::support::watch::Unwatched;
 use blocks::{BLOCKS, Blocks, Channels, SIDE, Verdict};
@@ -52,7 +54,7 @@ impl Golden {
     /// mean of both kinds', which is that of the mean.
     fn picture(&self, bounces: u32) -> Blocks {
         let render = |seed: u64| self.render(bounces, seed, 2, SamplerKind::ALL[seed as usize % 2]);
-        Blocks::of_renders(&(0..8).map(render).collect::<Vec<_>>())
+        Blocks::of_renders(&(0..8).map(render).collect::<Vec<_>>(), SIDE)
     }
 
     fn reference(&self) -> Blocks {

@@ -7,6 +7,7 @@ use crate::picture::Depth;
 use crate::render::{AccelKind, FeatureKind, MIN_TIME};
 use crate::sampling::SamplerKind;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap_complete::Shell;
 use std::time::Duration;
 
 /// The names of the accelerators.
@@ -44,6 +45,8 @@ pub(super) const AOVS: [(&str, Aov); 7] = [
     (Aov::Samples.name(), Aov::Samples),
     (Aov::Error.name(), Aov::Error),
 ];
+pub(super) const SHELLS: [(&str, Shell); 3] =
+    [("bash", Shell::Bash), ("zsh", Shell::Zsh), ("fish", Shell::Fish)];
 pub(super) const SWITCH: [(&str, bool); 2] = [("on", true), ("off", false)];
 
 /// The name of a value in one of the tables above.

@@ -4,9 +4,8 @@ use super::grid::{Frame, Variant};
 use crate::error::{Error, Result};
 use crate::output::{denoised, linear_floats};
 use crate::picture::Denoiser;
-use crate::render::{Rendered, available_bytes, render};
+use crate::render::{Rendered, Unwatched, available_bytes, render};
 use crate::scene::desc::CameraDesc;
-use crate::study::rounds::Nobody;
 use crate::world::World;
 use std::time::Instant;
 
@@ -69,7 +68,7 @@ pub(super) fn take(
         for (configuration, shots) in configurations.iter().zip(&mut shots) {
             let variant = &variants[configuration.variant];
             let settings = variant.settings(frame, configuration.samples, seed);
-            let rendered = render(world, camera, &settings, &Nobody)?;
+            let rendered = render(world, camera, &settings, &Unwatched)?;
             shots.push(Shot::of(&rendered, denoiser.as_ref().filter(|_| variant.denoise))?);
         }
     }

@@ -2,14 +2,14 @@
 
 /// A distribution over indices.
 #[derive(Clone, Debug, Default)]
-pub struct AliasTable {
+pub(crate) struct AliasTable {
     /// Probability of staying in a slot, the other index of the slot, and the probability of the slot's own index.
     slots: Vec<(f64, u32, f64)>,
 }
 
 impl AliasTable {
     /// The distribution proportional to `weights`, each >= 0 and finite. All zero, or none: nothing is ever chosen.
-    pub fn new(weights: &[f64]) -> AliasTable {
+    pub(crate) fn new(weights: &[f64]) -> AliasTable {
         // Scaled first, so that neither tiny nor huge weights leave the range of numbers.
         let largest = weights.iter().copied().fold(0.0, f64::max);
         if largest == 0.0 {
@@ -43,7 +43,7 @@ impl AliasTable {
     }
 
     /// An index, its probability, and `u` in [0, 1) made new. `None` if nothing can be chosen.
-    pub fn sample(&self, u: f64) -> Option<(u32, f64, f64)> {
+    pub(crate) fn sample(&self, u: f64) -> Option<(u32, f64, f64)> {
         let scaled = u * self.slots.len() as f64;
         let slot = (scaled as usize).min(self.slots.len().checked_sub(1)?);
         let (stay, other, _) = self.slots[slot];
@@ -54,7 +54,7 @@ impl AliasTable {
     }
 
     /// The probability of an index.
-    pub fn probability(&self, index: u32) -> f64 {
+    pub(crate) fn probability(&self, index: u32) -> f64 {
         self.slots.get(index as usize).map_or(0.0, |slot| slot.2)
     }
 }

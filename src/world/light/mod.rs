@@ -5,9 +5,7 @@ mod area;
 mod spherical_rectangle;
 mod tree;
 
-pub use alias::AliasTable;
 pub use area::Receiver;
-pub use spherical_rectangle::{Pane, SphericalRectangle};
 pub use tree::{LightTree, TreeItem};
 
 use super::sky::Sky;

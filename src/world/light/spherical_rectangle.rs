@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 
 /// A rectangle in axes of its own, made once for all points that see it.
 #[derive(Clone, Copy, Debug)]
-pub struct Pane {
+pub(crate) struct Pane {
     center: DVec3,
     /// Unit vectors along the edges, and the normal.
     axes: [DVec3; 3],
@@ -17,7 +17,7 @@ pub struct Pane {
 
 impl Pane {
     /// The pane of a rectangle.
-    pub fn new(rectangle: &Rectangle) -> Pane {
+    pub(crate) fn new(rectangle: &Rectangle) -> Pane {
         let (width, height) = (rectangle.edge_u.length(), rectangle.edge_v.length());
         Pane {
             center: rectangle.center,
@@ -30,7 +30,7 @@ impl Pane {
 /// A rectangle seen from a point (Ureña, Fajardo, King, "An Area-Preserving Parametrization for Spherical Rectangles",
 /// EGSR 2013). The solid angle itself is computed by the form of Van Oosterom and Strackee, which does not cancel.
 #[derive(Clone, Copy, Debug)]
-pub struct SphericalRectangle {
+pub(crate) struct SphericalRectangle {
     /// Ends of the rectangle along its two edges, and its distance, relative to the point (<= 0).
     x: [f64; 2],
     y: [f64; 2],
@@ -50,7 +50,7 @@ const FLAT: f64 = 2.0;
 impl SphericalRectangle {
     /// The view from `p`.
     #[inline]
-    pub fn new(pane: &Pane, p: DVec3) -> SphericalRectangle {
+    pub(crate) fn new(pane: &Pane, p: DVec3) -> SphericalRectangle {
         let d = pane.center - p;
         let (x, y, z) = (d.dot(pane.axes[0]), d.dot(pane.axes[1]), d.dot(pane.axes[2]));
         let [width, height] = pane.half;
@@ -61,13 +61,13 @@ impl SphericalRectangle {
     }
 
     /// In steradians; 0 in the rectangle's own plane.
-    pub fn solid_angle(&self) -> f64 {
+    pub(crate) fn solid_angle(&self) -> f64 {
         self.uniform_in.unwrap_or_else(|| solid_angle(self.x, self.y, self.z))
     }
 
     /// Coordinates in [0, 1] on the rectangle, from `u` in [0, 1)^2.
     #[inline]
-    pub fn sample(&self, u: [f64; 2]) -> (f64, f64) {
+    pub(crate) fn sample(&self, u: [f64; 2]) -> (f64, f64) {
         let Some(solid_angle) = self.uniform_in else {
             return (u[0], u[1]);
         };
@@ -96,7 +96,7 @@ impl SphericalRectangle {
 
     /// Density per solid angle of [`SphericalRectangle::sample`] at the point with offset `to` (from the viewer).
     #[inline]
-    pub fn pdf(&self, to: DVec3) -> f64 {
+    pub(crate) fn pdf(&self, to: DVec3) -> f64 {
         if let Some(solid_angle) = self.uniform_in {
             return 1.0 / solid_angle;
         }

@@ -1,4 +1,4 @@
-//! The node test in SSE2, AVX2 and AVX-512, chosen at run time. All `unsafe` of the tree is in this file.
+//! The node test in SSE2, AVX2 and AVX-512, chosen at run time. All `unsafe` of the tree is in this folder.
 //!
 //! A whole traversal is compiled for each instruction set: functions with `#[target_feature]` are not inlined into
 //! callers without it, so the choice is made once a ray, at the entry points below.
