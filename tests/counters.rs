@@ -1,4 +1,5 @@
 use pathtracer::error::Error;
+use pathtracer::film::Region;
 use pathtracer::integrator::{Counters, FixedSum};
 use pathtracer::math::{EPSILON, Rgb};
 use pathtracer::render::{Ended, FIREFLY, Progress, Rendered, Settings, Watch, accumulate};
@@ -139,6 +140,31 @@ fn known_samples_lose_known_parts() {
     // The unclamped mean is (15 + 5 / 3) / 16 limits; at most ten roundings.
     let bias = rendered.clamp_bias().expect("a limit");
     assert!((bias - 1.0 / (15.0 + 5.0 / 3.0)).abs() < (PIXELS + 10) as f64 * EPSILON * bias, "{bias}");
+}
+
+/// What is a share of the light is that of the pixels which the render took, not of the whole picture.
+#[test]
+fn shares_of_the_light_of_a_part_are_those_of_its_own_pixels() {
+    let regions = [
+        Region::All,
+        Region::Crop { left: 3, top: 2, right: 20, bottom: 7 },
+        Region::Part { index: 1, count: 4 },
+    ];
+    for region in regions {
+        let rendered = run(&Settings { region, ..clamped(16) }, |_, _, _, counters| {
+            counters.last_throughput.add(1.0);
+            counters.cut_throughput.add(0.5);
+            counters.last_light.add(LIMIT);
+            Rgb::splat(4.0 * LIMIT)
+        });
+        // All numbers are powers of two and small multiples of them, but for the limit and the means: some roundings.
+        let near = |share: Option<f64>, expected: f64| {
+            assert!(share.is_some_and(|share| (share - expected).abs() < 20.0 * EPSILON), "{region}: {share:?}");
+        };
+        near(rendered.clamp_bias(), 0.75);
+        // As much as the last segments brought is lost beyond them: a limit beside the limit that was found.
+        near(rendered.cut_light(), 0.5);
+    }
 }
 
 #[test]

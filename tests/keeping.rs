@@ -3,9 +3,9 @@
 use crate::support::build;
 use pathtracer::error::Error;
 use pathtracer::film::file::{FilePlace, FilmRecord, Reader};
-use pathtracer::film::{Film, Region, Sums};
+use pathtracer::film::{Film, Frame, Region, Run, Sums};
 use pathtracer::math::{DVec3, Rgb};
-use pathtracer::render::{Estimate, FilmFile, Settings, merge};
+use pathtracer::render::{Estimate, FilmFile, Settings, film_bytes, merge};
 use std::fs;
 use std::path::Path;
 use xxhash_rust::xxh3::xxh3_128;
@@ -20,11 +20,12 @@ fn file(path: &Path, header: &str, sums: &[u8]) {
     fs::write(path, bytes).expect("a file");
 }
 
-/// A film of 37 x 23 pixels of some chunks.
-fn film() -> Film {
-    let mut film = Film::new(37, 23, 4);
+/// A film of some chunks of a region of 37 x 23 pixels.
+fn film(region: Region) -> Film {
+    let mut film = Film::of(Frame::new(37, 23, region), 4);
     for chunk in 0..7 {
-        let light = (0..37 * 23).map(|pixel| Rgb::splat(libm::exp((pixel % 50) as f64 + chunk as f64)));
+        let light =
+            region.pixels(37, 23).map(|pixel| Rgb::splat(libm::exp((pixel % 50) as f64 + chunk as f64)));
         film.add(chunk, Sums::of_scramble(3, 4, light.collect())).expect("a new chunk");
     }
     film
@@ -34,22 +35,22 @@ fn film() -> Film {
 fn what_is_written_of_a_film_is_read_again() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("a.film");
-    let film = film();
+    let whole: Vec<Rgb> = film(Region::All).means().collect();
     for region in [
         Region::All,
         Region::Part { index: 1, count: 3 },
         Region::Crop { left: 3, top: 1, right: 9, bottom: 23 },
     ] {
+        let film = film(region);
         let place = FilePlace::new(&path).expect("a place");
         place
-            .write(&FilmRecord::new(&film), |writer| FilmRecord::write(&film, region, writer))
+            .write(&FilmRecord::new(&film), |writer| FilmRecord::write(&film, writer))
             .expect("a written file");
         let (record, mut reader): (FilmRecord, Reader) = Reader::open(&path).expect("a film file");
-        let count = region.area(37, 23) as u32;
-        let read = record.read(count, &mut reader).expect("a film");
+        let read = record.read(film.frame().clone(), &mut reader).expect("a film");
         reader.finish().expect("all of it");
-        let means: Vec<Rgb> = film.means().collect();
-        let expected: Vec<Rgb> = region.pixels(37, 23).map(|pixel| means[pixel]).collect();
+        assert!(read == film, "{region}");
+        let expected: Vec<Rgb> = region.pixels(37, 23).map(|pixel| whole[pixel]).collect();
         assert_eq!(read.means().collect::<Vec<_>>(), expected, "{region}");
         assert_eq!(record.samples(), 28);
     }
@@ -74,6 +75,49 @@ fn regions_cover_their_pixels_once() {
     }
 }
 
+/// Machines that share a folder know nothing of one another's processes.
+#[test]
+fn every_file_under_way_has_a_temporary_name_of_its_own() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let place = || FilePlace::new(&folder.path().join("a.film")).expect("a place");
+    let (one, other) = (place(), place());
+    assert_eq!(one.path(), other.path());
+    assert_ne!(one.partial_path(), other.partial_path());
+}
+
+#[test]
+fn the_pixels_of_a_region_are_numbered_in_their_order() {
+    for (width, height) in [(1, 1), (37, 23), (16, 32), (100, 5), (70, 50)] {
+        let parts = [1, 2, 3, 5, 7, 11, 100].into_iter().flat_map(|count| {
+            (0..count).map(move |index| Region::Part { index, count })
+        });
+        let crops = [(0, 0, 1, 1), (3, 2, 37, 23), (17, 4, 18, 5), (16, 0, 70, 48)];
+        let crops = crops.map(|(left, top, right, bottom)| Region::Crop { left, top, right, bottom });
+        let regions = parts.chain(crops).chain([Region::All]);
+        for region in regions.filter(|region| region.check(width, height, false).is_ok()) {
+            let frame = Frame::new(width, height, region);
+            let expected: Vec<usize> = region.pixels(width, height).collect();
+            let number = |(x, y): (u32, u32)| y as usize * width as usize + x as usize;
+            let places: Vec<usize> = (0..frame.pixels()).map(|i| number(frame.place(i))).collect();
+            assert_eq!(places, expected, "{region} of {width} x {height}");
+            let in_runs = frame.runs().flat_map(|Run { x, y }| x.map(move |x| (x, y)));
+            for (i, (x, y)) in in_runs.enumerate() {
+                assert_eq!((frame.number(x, y), number((x, y))), (i, expected[i]), "{region}");
+            }
+            assert_eq!(frame.runs().map(|run| run.x.len()).sum::<usize>(), expected.len(), "{region}");
+        }
+    }
+}
+
+#[test]
+fn a_part_takes_the_memory_of_its_own_pixels() {
+    let whole = Settings { features: true, ..Settings::new(6400, 3200, 64, 4) };
+    let crop = Settings { region: Region::Crop { left: 8, top: 8, right: 72, bottom: 40 }, ..whole.clone() };
+    let part = Settings { region: Region::Part { index: 3, count: 100 }, ..whole.clone() };
+    let ratio = |settings: &Settings| film_bytes(&whole) as f64 / film_bytes(settings) as f64;
+    assert_eq!([&crop, &part].map(ratio), [10_000.0, 100.0]);
+}
+
 #[test]
 fn files_that_claim_more_than_they_hold_are_refused_without_allocating_it() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -93,7 +137,8 @@ fn files_that_claim_more_than_they_hold_are_refused_without_allocating_it() {
     ] {
         file(&path, &header, &[0; 64]);
         let (record, mut reader): (FilmRecord, Reader) = Reader::open(&path).expect("a film file");
-        let refused = record.read(u32::MAX, &mut reader).expect_err("too much");
+        let refused =
+            record.read(Frame::new(1 << 16, 1 << 14, Region::All), &mut reader).expect_err("too much");
         assert!(matches!(refused, Error::Film(_)), "{header}: {refused}");
     }
 }
@@ -106,7 +151,7 @@ fn sums_that_are_no_light_are_refused() {
     for (value, is_light) in [(0.0, true), (3.5, true), (-1.0, false), (f64::NAN, false)] {
         file(&path, header, &[value, 1.0, 1.0].map(f64::to_le_bytes).concat());
         let (record, mut reader): (FilmRecord, Reader) = Reader::open(&path).expect("a film file");
-        assert_eq!(record.read(1, &mut reader).is_ok(), is_light, "{value}");
+        assert_eq!(record.read(Frame::new(1, 1, Region::All), &mut reader).is_ok(), is_light, "{value}");
     }
 }
 

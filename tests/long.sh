@@ -7,10 +7,15 @@ seconds=${1:-3600}
 cargo build --release
 tests/faults/kills.sh 200
 for target in yaml obj mtl film geometry; do
-    mkdir -p fuzz/corpus/$target
-    tests/seeds.sh $target fuzz/corpus/$target
+    # What is new goes to the first folder; the kept inputs stay as they are.
+    new=fuzz/target/corpus/$target
+    mkdir -p "$new" fuzz/artifacts/$target
+    words=()
+    if [ -f fuzz/dict/$target.dict ]; then words=(-dict=fuzz/dict/$target.dict); fi
+    tests/seeds.sh $target "$new"
     # The sanitizer is switched on by a flag that stable compilers refuse without this.
-    RUSTC_BOOTSTRAP=1 cargo fuzz run $target --sanitizer address -- -max_total_time="$seconds" -max_len=16384 -rss_limit_mb=4096
+    RUSTC_BOOTSTRAP=1 cargo fuzz run $target --sanitizer address "$new" fuzz/corpus/$target -- \
+        -max_total_time="$seconds" -max_len=16384 -rss_limit_mb=4096 "${words[@]}" -artifact_prefix=fuzz/artifacts/$target/
 done
 PATHTRACER_SOAK_SECONDS=$seconds cargo test --release --test tests soak -- --ignored --nocapture
 cargo test --release --test tests -- --ignored

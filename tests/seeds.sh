@@ -1,9 +1,10 @@
 #!/bin/bash
 # Fills a folder with what a fuzz target begins with: the project's own scenes, meshes and materials, good and bad.
-# Usage: tests/seeds.sh TARGET FOLDER
+# Usage: tests/seeds.sh TARGET FOLDER [PROGRAM]
 set -euo pipefail
 cd "$(dirname "$0")/.."
 target=$1 folder=$2
+program=${3:-target/release/pathtracer}
 small() { find "$@" -type f -size -16k; }
 case $target in
 yaml) small scenes tests/data/bad_scenes tests/golden -name '*.yaml' ;;
@@ -13,7 +14,6 @@ mtl) small tests/data objects scenes -name '*.mtl' ;;
 esac | while read -r file; do cp "$file" "$folder/$(basename "$(dirname "$file")")-$(basename "$file")"; done
 if [ "$target" = film ]; then
     work=$(mktemp -d)
-    program=target/release/pathtracer
     scene=scenes/bigBalls.yaml
     $program $scene 20 18 40 2 "$work/a.film" --part 0/2 --quiet
     $program $scene 20 18 40 2 "$work/b.film" --chunks 1..2 --aov depth --quiet

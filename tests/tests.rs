@@ -83,6 +83,9 @@ mod soak;
 /// What a file of sums may hold, and the memory of a render.
 mod keeping;
 
+/// What the fuzzers kept.
+mod corpora;
+
 /// Measuring: accelerators, rays, meshes, errors of pictures, trade-offs, growth; tables, plots, pages.
 mod study;
 

@@ -1,7 +1,7 @@
-//! What the targets share: input in files, in a folder of this process.
+//! What the targets share.
 
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
 static FOLDER: LazyLock<PathBuf> = LazyLock::new(|| {
@@ -10,9 +10,7 @@ static FOLDER: LazyLock<PathBuf> = LazyLock::new(|| {
     folder
 });
 
-/// A file of this process with this content.
-pub fn file(name: &str, content: &[u8]) -> PathBuf {
-    let path = FOLDER.join(name);
-    fs::write(&path, content).expect("a temporary file");
-    path
+/// A folder of this process.
+pub(crate) fn folder() -> &'static Path {
+    &FOLDER
 }

@@ -36,6 +36,9 @@ use values::{
     whole_or_none,
 };
 
+/// How often checkpoints are written, unless set otherwise.
+pub(super) const EVERY: Duration = Duration::from_secs(60);
+
 /// The positional arguments of a render, as messages name them.
 const POSITIONALS: [&str; 6] = ["SCENE", "WIDTH", "HEIGHT", "SAMPLES", "BOUNCES", "IMAGE"];
 
@@ -204,9 +207,9 @@ pub(super) struct RenderArguments {
     /// Keep what it takes to go on with the render in this file
     #[arg(long, value_name = "FILE")]
     checkpoint: Option<PathBuf>,
-    /// How often it is written, such as 60, 500ms or 5m, at the next end of a pass
-    #[arg(long, value_name = "T", default_value = "60s", allow_negative_numbers = true, value_parser = time)]
-    every: Duration,
+    /// How often it is written, such as 60, 500ms or 5m, at the next end of a pass [default: 60s]
+    #[arg(long, value_name = "T", allow_negative_numbers = true, value_parser = time)]
+    every: Option<Duration>,
     /// Go on with the render of a checkpoint; with the same file in --checkpoint, begin where there is none
     #[arg(long, value_name = "FILE")]
     resume: Option<PathBuf>,
@@ -364,7 +367,7 @@ impl RenderArguments {
             error_bars,
             settings,
             checkpoint,
-            every,
+            every: every.unwrap_or(EVERY),
             resume,
             exposure,
             depth,

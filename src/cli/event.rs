@@ -34,7 +34,7 @@ pub(super) enum Event<'e> {
     },
     /// The picture is written.
     Done(Summary<'e>),
-    /// The picture is written, with fewer samples than asked for.
+    /// The picture is written, or of a part the checkpoint, with fewer samples than asked for.
     Interrupted(Summary<'e>),
     /// The program ends without a picture.
     Error { code: u8, message: String, diagnostics: Vec<DiagnosticRecord> },
@@ -123,7 +123,7 @@ struct Counts {
 }
 
 /// What the parts of a run took.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Copy, Debug, Default, Serialize)]
 pub(super) struct Seconds {
     /// To read the scene and its meshes.
     #[serde(rename = "load_seconds")]

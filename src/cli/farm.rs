@@ -1,6 +1,6 @@
 //! `pathtracer farm`: a render in parts as a job of an engine that exists.
 
-use super::arguments::{FarmArguments, FarmCommand, Job};
+use super::arguments::{EVERY, FarmArguments, FarmCommand, Job};
 use super::saving;
 use crate::error::{Error, Result};
 use crate::film::Region;
@@ -32,11 +32,10 @@ impl Farm {
     /// Whatever can be known to fail fails here, not on the farm.
     fn new(arguments: FarmArguments) -> anyhow::Result<Farm> {
         let (job, parts, folder) = arguments.resolve()?;
-        job.settings.check()?;
-        if saving::is_part(&job) || job.settings.time.is_some() {
-            let why = "farm cuts the picture itself: leave out --part, --crop, --chunks and --time";
+        if let Some(why) = refused(&job) {
             return Err(Error::Usage(why.into()).into());
         }
+        job.settings.check()?;
         let region = Region::Part { index: 0, count: parts };
         Settings { region, ..job.settings.clone() }.check()?;
         Destination::new(&job.image)?;
@@ -50,10 +49,27 @@ impl Farm {
         let mut words = self.recipe.arguments(file);
         scene.clone_into(&mut words[0]);
         words.extend(["--part".into(), format!("{part}/{}", self.parts)]);
-        if let Some(threads) = self.job.settings.threads {
-            words.extend(["--threads".into(), threads.to_string()]);
+        for (option, value) in self.task_options() {
+            if !words.contains(&option) {
+                words.extend([option, value]);
+            }
         }
         words
+    }
+
+    /// The options that do not change the sums of a task, but what they cost.
+    fn task_options(&self) -> impl Iterator<Item = (String, String)> {
+        let Job { settings, every, .. } = &self.job;
+        let defaults = Settings::new(1, 1, 1, 1);
+        let all = [
+            ("--accel", (settings.accel != defaults.accel).then(|| settings.accel.name().to_owned())),
+            ("--isa", settings.isa.map(|isa| isa.name().to_owned())),
+            ("--bvh", (settings.bvh != defaults.bvh).then(|| settings.bvh.name().to_owned())),
+            ("--threads", settings.threads.map(|threads| threads.to_string())),
+            ("--tile", settings.tile.map(|side| side.to_string())),
+            ("--every", (*every != EVERY).then(|| every.as_secs_f64().to_string())),
+        ];
+        all.into_iter().filter_map(|(option, value)| Some((option.to_owned(), value?)))
     }
 
     /// The arguments of the last task.
@@ -62,8 +78,29 @@ impl Farm {
         words.extend((0..self.parts).map(|part| format!("{folder}/part-{part}.film")));
         words.push(image.to_owned());
         words.extend(picture_options(&self.job));
+        words.extend(self.job.quiet.then(|| "--quiet".to_owned()));
         words
     }
+}
+
+/// What a render may have that a farm's can't, and why.
+fn refused(job: &Job) -> Option<&'static str> {
+    let all = [
+        (
+            saving::is_part(job) || job.settings.time.is_some(),
+            "farm cuts the picture itself: leave out --part, --crop, --chunks and --time",
+        ),
+        (
+            job.checkpoint.is_some() || job.resume.is_some(),
+            "every part keeps its own checkpoint and goes on with it: leave out --checkpoint and --resume",
+        ),
+        (job.stamp, "a picture of many machines has no one time and machine: leave out --stamp"),
+        (
+            job.json || job.openjd,
+            "farm prints a job, not how a render goes on: leave out --json and --progress, or add them to the job's commands",
+        ),
+    ];
+    all.into_iter().find_map(|(is_given, why)| is_given.then_some(why))
 }
 
 /// The options of a render that only say how its picture is written.

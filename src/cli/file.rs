@@ -1,6 +1,7 @@
 //! Text files that are written whole or not at all.
 
 use crate::error::{Error, Result};
+use crate::picture::partial_file;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -18,8 +19,10 @@ impl OutputFile {
         if path.is_dir() {
             return Err(failed(path, io::ErrorKind::IsADirectory.into()));
         }
-        let name = path.file_name().ok_or_else(|| failed(path, io::ErrorKind::InvalidInput.into()))?;
-        let partial = path.with_file_name(format!(".{}-{}.part", name.to_string_lossy(), std::process::id()));
+        if path.file_name().is_none() {
+            return Err(failed(path, io::ErrorKind::InvalidInput.into()));
+        }
+        let partial = partial_file(path);
         fs::write(&partial, "")
             .and_then(|()| fs::remove_file(&partial))
             .map_err(|error| failed(path, error))?;

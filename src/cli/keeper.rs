@@ -4,7 +4,7 @@ use super::console::say;
 use super::progress::Reporter;
 use crate::error::Error;
 use crate::film::file::FilePlace;
-use crate::render::{Origin, Progress, Snapshot, SoFar, Watch};
+use crate::render::{FileKind, FilmFile, Origin, Progress, Snapshot, SoFar, Watch};
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
@@ -56,6 +56,10 @@ impl Watch for Keeper<'_> {
             return;
         };
         if snapshot.samples() == 0 || !(snapshot.is_last() || last.elapsed() >= self.every) {
+            return;
+        }
+        // Another run of the same task may have finished the part meanwhile.
+        if FilmFile::kind_of(place.path()) == Some(FileKind::Part) {
             return;
         }
         // A render does not end because its checkpoint can't be written: there may be room later.

@@ -2,7 +2,7 @@
 
 use super::arguments::{Job, MergeArguments};
 use super::console::say;
-use super::render::{error_bars, write_picture};
+use super::render::{ending, error_bars, write_picture};
 use super::{findings, interrupt};
 use crate::error::Error;
 use crate::output::{Aov, Target};
@@ -35,6 +35,7 @@ pub(super) fn run(arguments: &MergeArguments) -> anyhow::Result<u8> {
     write_picture(&target, bars.as_ref(), &job, &origin, &rendered)?;
     findings::report(&job, &rendered);
     if !job.quiet {
+        ending(&job, &rendered).iter().for_each(say);
         say(format_args!("{} made of {} parts", image.display(), parts.len()));
     }
     Ok(0)

@@ -79,7 +79,8 @@ pub fn report(error: &anyhow::Error, arguments: &[OsString]) -> u8 {
     if arguments.iter().any(|argument| argument == "--json") {
         event::emit(&Event::error(code, error));
     }
-    if arguments.windows(2).any(|words| words[0] == "--progress" && words[1] == "openjd") {
+    let is_openjd = |words: &[OsString]| words[0] == "--progress" && words[1] == "openjd";
+    if arguments.windows(2).any(is_openjd) || arguments.iter().any(|word| word == "--progress=openjd") {
         progress::openjd("fail", &error.to_string());
     }
     match (error.downcast_ref::<clap::Error>(), error.downcast_ref::<Error>()) {

@@ -101,14 +101,12 @@ pub(super) fn run(job: &Job) -> anyhow::Result<u8> {
     let view = View::new(&world, &camera, job.settings.width, job.settings.height);
     let origin = Origin { recipe, view, brightest: world.brightest() };
     let mut state = saving::resumed(job, &origin)?;
+    let mut done = None;
     if let (Some(place), None) = (output.part(), &job.resume) {
         match saving::existing_part(job, place, &origin)? {
             Found::Nothing => {}
             Found::Begun(begun) => state = Some(*begun),
-            Found::Done => {
-                say(format_args!("{} is there already, and complete", job.image.display()));
-                return Ok(0);
-            }
+            Found::Done(rendered) => done = Some(rendered),
         }
     }
     if let (Some(state), false) = (&state, job.quiet) {
@@ -116,6 +114,11 @@ pub(super) fn run(job: &Job) -> anyhow::Result<u8> {
     }
     if job.json {
         event::emit(&Event::Start { job: JobRecord::new(job), requires: &world.requires });
+    }
+    if let Some(rendered) = done {
+        say(format_args!("{} is there already, and complete", job.image.display()));
+        let seconds = Seconds { load, build: compile, ..Seconds::default() };
+        return Ok(end(job, &world, &rendered, seconds));
     }
 
     let reporter = Reporter::new(job);
@@ -127,8 +130,11 @@ pub(super) fn run(job: &Job) -> anyhow::Result<u8> {
     if rendered.film.samples() == 0 {
         return Err(Error::Interrupted.into());
     }
+    let build = compile + rendered.build_seconds;
+    let seconds = Seconds { load, build, render: rendered.render_seconds, write: 0.0 };
     if cancelled && output.part().is_some() {
-        return unfinished(job, &keeper, &rendered);
+        unfinished(job, &keeper, &rendered)?;
+        return Ok(end(job, &world, &rendered, seconds));
     }
     let (written, write) = timed(|| output.write(job, &origin, &rendered));
     written.map_err(|error| saving::rescue(job, &origin, &rendered, error))?;
@@ -137,31 +143,36 @@ pub(super) fn run(job: &Job) -> anyhow::Result<u8> {
         say("warning: the picture has no channel of errors: they need 16 samples");
     }
 
-    let build = compile + rendered.build_seconds;
-    let seconds = Seconds { load, build, render: rendered.render_seconds, write };
+    let seconds = Seconds { write, ..seconds };
     conclude(job, &rendered, seconds);
+    Ok(end(job, &world, &rendered, seconds))
+}
+
+/// Tells programs how it ended; the exit code.
+fn end(job: &Job, world: &World, rendered: &Rendered, seconds: Seconds) -> u8 {
     if job.json {
-        let summary = Summary::new(job, &world.requires, &rendered, seconds);
+        let summary = Summary::new(job, &world.requires, rendered, seconds);
+        let cancelled = rendered.ended == Ended::Cancelled;
         event::emit(&if cancelled { Event::Interrupted(summary) } else { Event::Done(summary) });
     }
-    Ok(match rendered.ended {
+    match rendered.ended {
         Ended::Cancelled => interrupt::exit_code().unwrap_or(0),
         Ended::OutOfTime if job.settings.noise.is_some() => NOISE_MISSED,
         _ => 0,
-    })
+    }
 }
 
 /// Of a part that was interrupted only the checkpoint is left.
-fn unfinished(job: &Job, keeper: &Keeper<'_>, rendered: &Rendered) -> anyhow::Result<u8> {
+fn unfinished(job: &Job, keeper: &Keeper<'_>, rendered: &Rendered) -> Result<()> {
     if let Some(error) = keeper.failure() {
-        return Err(error.into());
+        return Err(error);
     }
     say(format_args!(
         "interrupted after {} of {} samples; the same command goes on with it",
         rendered.film.samples(),
         job.settings.samples_to_take()
     ));
-    Ok(interrupt::exit_code().unwrap_or(1))
+    Ok(())
 }
 
 /// Writes a picture, and the errors of its pixels if they are wanted.
@@ -224,7 +235,7 @@ fn conclude(job: &Job, rendered: &Rendered, seconds: Seconds) {
 }
 
 /// Why it ended before all that was asked for was done.
-fn ending(job: &Job, rendered: &Rendered) -> Option<String> {
+pub(super) fn ending(job: &Job, rendered: &Rendered) -> Option<String> {
     let (samples, asked) = (rendered.film.samples(), job.settings.samples);
     match (rendered.ended, job.settings.noise) {
         (Ended::Cancelled, _) if asked == 0 => Some(format!("interrupted after {samples} samples")),
@@ -250,10 +261,9 @@ fn samples(job: &Job, rendered: &Rendered) -> String {
         (None, None) => String::new(),
         (None, Some(_)) => format!("; {} samples a pixel", film.samples()),
         (Some(_), _) => {
-            let pixels = f64::from(film.width()) * f64::from(film.height());
             format!(
                 "; {} samples a pixel, at most {}",
-                digits(rendered.samples() / pixels, 4),
+                digits(rendered.samples() / film.pixels() as f64, 4),
                 film.samples()
             )
         }

@@ -59,7 +59,7 @@ pub(super) enum Found {
     /// Nothing that helps.
     Nothing,
     /// All of it.
-    Done,
+    Done(Box<Rendered>),
     /// A checkpoint of it.
     Begun(Box<State>),
 }
@@ -84,7 +84,7 @@ pub(super) fn existing_part(job: &Job, place: &FilePlace, origin: &Origin) -> Re
     }
     let differences = file.origin().recipe.differences(&origin.recipe, &OF_A_TASK);
     match differences.is_empty() {
-        true => Ok(Found::Done),
+        true => Ok(Found::Done(Box::new(file.rendered()?))),
         false => {
             let differences = differences.join(", ");
             let why =

@@ -7,6 +7,7 @@
 
 mod error_bar;
 pub mod file;
+mod frame;
 mod picture_error;
 mod region;
 mod stops;
@@ -14,6 +15,7 @@ mod student;
 mod sums;
 
 pub use error_bar::ErrorBar;
+pub use frame::{Frame, Run};
 pub(crate) use picture_error::relative_weight;
 pub use picture_error::{Estimate, PictureError, PictureErrorSum, Pixels};
 pub use region::Region;
@@ -38,10 +40,11 @@ struct Node {
 }
 
 /// The sums of a picture's samples, one a pixel; every pixel has the same number of samples, unless blocks have stopped.
+///
+/// The film of a part of a picture holds the pixels of its region alone, and counts only them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Film {
-    width: u32,
-    height: u32,
+    frame: Frame,
     chunk: u64,
     /// Ascending by `first`, without overlap.
     nodes: Vec<Node>,
@@ -52,17 +55,32 @@ pub struct Film {
 impl Film {
     /// A film without samples, of `width` x `height` pixels and `chunk` > 0 samples a chunk.
     pub fn new(width: u32, height: u32, chunk: u64) -> Film {
-        Film { width, height, chunk, nodes: Vec::new(), stops: None }
+        Film::of(Frame::new(width, height, Region::All), chunk)
     }
 
-    /// Pixels in a row.
+    /// A film without samples, of the pixels of a frame.
+    pub fn of(frame: Frame, chunk: u64) -> Film {
+        Film { frame, chunk, nodes: Vec::new(), stops: None }
+    }
+
+    /// Pixels in a row of the picture.
     pub fn width(&self) -> u32 {
-        self.width
+        self.frame.width()
     }
 
-    /// Rows.
+    /// Rows of the picture.
     pub fn height(&self) -> u32 {
-        self.height
+        self.frame.height()
+    }
+
+    /// The pixels that it holds.
+    pub fn frame(&self) -> &Frame {
+        &self.frame
+    }
+
+    /// How many they are.
+    pub fn pixels(&self) -> usize {
+        self.frame.pixels()
     }
 
     /// Samples that every pixel has, or the most that one has where blocks have stopped.
@@ -86,9 +104,7 @@ impl Film {
     /// Adds the sums of one chunk, of at most the chunk's samples. Chunks may come in any order. An error if the film has
     /// this chunk already or the sizes differ.
     pub fn add(&mut self, chunk: u64, sums: Sums) -> Result<()> {
-        if sums.radiance.len() as u64 != u64::from(self.width) * u64::from(self.height)
-            || sums.samples > self.chunk
-        {
+        if sums.radiance.len() != self.pixels() || sums.samples > self.chunk {
             return Err(Error::Usage("a chunk of another size can't be added to this film".into()));
         }
         self.insert(Node { first: chunk, chunks: 1, sums })
@@ -96,7 +112,7 @@ impl Film {
 
     /// Adds the chunks of another part of the same render. An error if the sizes differ or a chunk is in both.
     pub fn merge(&mut self, other: Film) -> Result<()> {
-        if (self.width, self.height, self.chunk) != (other.width, other.height, other.chunk) {
+        if (&self.frame, self.chunk) != (&other.frame, other.chunk) {
             return Err(Error::Usage("films of different sizes can't be merged".into()));
         }
         other.nodes.into_iter().try_for_each(|node| self.insert(node))
@@ -104,7 +120,7 @@ impl Film {
 
     /// The mean of every pixel, row by row from the top left; zero before the first sample.
     pub fn means(&self) -> impl Iterator<Item = Rgb> + '_ {
-        let pixels = if self.nodes.is_empty() { 0 } else { self.width as usize * self.height as usize };
+        let pixels = if self.nodes.is_empty() { 0 } else { self.pixels() };
         let weight = 1.0 / self.samples().max(1) as f64;
         (0..pixels).map(move |pixel| self.mean(pixel, weight))
     }

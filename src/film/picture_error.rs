@@ -4,6 +4,7 @@ use super::student::quantile;
 use super::{Film, grey};
 use crate::math::Rgb;
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// How far a picture is from the truth: what is expected of a render like it, estimated from how much its scrambles differ.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -161,11 +162,8 @@ impl Film {
     /// What is known of a pixel is the error of the mean of its components; that of each is taken to be proportional to the
     /// component. Rows are worked on side by side and added in order.
     pub fn picture_error(&self) -> Option<PictureError> {
-        let width = self.width as usize;
-        let rows: Vec<PictureErrorSum> = (0..self.height as usize)
-            .into_par_iter()
-            .map(|y| self.error_sum((y * width..(y + 1) * width).map(|pixel| (pixel, 1.0))))
-            .collect::<Option<_>>()?;
+        let row = |pixels: Range<usize>| self.error_sum(pixels.map(|pixel| (pixel, 1.0)));
+        let rows: Vec<PictureErrorSum> = self.rows().into_par_iter().map(row).collect::<Option<_>>()?;
         let sum = rows.iter().fold(PictureErrorSum::default(), PictureErrorSum::with);
         sum.finish(Pixels::All { degrees: self.error_bar(0)?.degrees })
     }
@@ -187,11 +185,16 @@ impl Film {
 
     /// The sum over the pixels of the means of their components.
     pub(crate) fn total(&self) -> f64 {
-        let width = self.width as usize;
         let weight = 1.0 / self.samples().max(1) as f64;
-        let row = |y: usize| (y * width..(y + 1) * width).map(|pixel| grey(self.mean(pixel, weight))).sum();
-        let rows: Vec<f64> = (0..self.height as usize).into_par_iter().map(row).collect();
+        let row = |pixels: Range<usize>| pixels.map(|pixel| grey(self.mean(pixel, weight))).sum();
+        let rows: Vec<f64> = self.rows().into_par_iter().map(row).collect();
         rows.iter().sum()
+    }
+
+    /// The pixels in runs as long as the picture's rows.
+    fn rows(&self) -> Vec<Range<usize>> {
+        let (width, pixels) = (self.width() as usize, self.pixels());
+        (0..pixels).step_by(width).map(|start| start..pixels.min(start + width)).collect()
     }
 }
 

@@ -33,10 +33,9 @@ impl Stops {
         Ok(Stops { scrambles, columns, halves })
     }
 
-    /// Samples of each scramble in a pixel, which is the `pixel`th of rows of `width`.
-    fn counts(&self, pixel: usize, width: usize) -> [u64; SCRAMBLES] {
-        let (x, y) = (pixel % width, pixel / width);
-        let block = y / BLOCK as usize * self.columns + x / BLOCK as usize;
+    /// Samples of each scramble in the pixel of a column and a row.
+    fn counts(&self, (x, y): (u32, u32)) -> [u64; SCRAMBLES] {
+        let block = (y / BLOCK) as usize * self.columns + (x / BLOCK) as usize;
         let both = self.halves[block].map(|samples| self.scrambles.counts(samples));
         std::array::from_fn(|scramble| both[scramble % HALVES][scramble])
     }
@@ -55,7 +54,7 @@ impl Film {
 
     /// Samples of each scramble in a pixel of a film with blocks.
     pub(super) fn stopped_counts(&self, pixel: usize) -> Option<[u64; SCRAMBLES]> {
-        self.stops.as_ref().map(|stops| stops.counts(pixel, self.width as usize))
+        self.stops.as_ref().map(|stops| stops.counts(self.frame.place(pixel)))
     }
 
     /// The mean of a pixel whose scrambles hold so many samples: that of the means of both halves, or of the first where

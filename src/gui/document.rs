@@ -1,6 +1,7 @@
 //! The scene file: read beside the window's thread, watched, and kept with its text.
 
 use crate::error::{Diagnostic, Error, Severity};
+use crate::picture::partial_file;
 use crate::scene::desc::{MaterialDesc, ShapeDesc};
 use crate::scene::edit::Editable;
 use crate::scene::{self, Scene};
@@ -72,8 +73,7 @@ pub fn write(path: &Path, text: &str) -> Result<(), Error> {
     let target = whole_path(path);
     let had_mark = fs::read(&target).is_ok_and(|bytes| bytes.starts_with(MARK.as_bytes()));
     let mark = if had_mark { MARK } else { "" };
-    let name = target.file_name().unwrap_or_default().to_string_lossy();
-    let partial = target.with_file_name(format!(".{name}-{}.part", std::process::id()));
+    let partial = partial_file(&target);
     let write = || {
         let mut file = File::create(&partial)?;
         file.write_all(format!("{mark}{text}").as_bytes())?;

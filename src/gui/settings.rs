@@ -3,6 +3,7 @@
 use super::document;
 use crate::accel::Precision;
 use crate::error::Result;
+use crate::picture::partial_file;
 use crate::render::{AccelKind, Settings};
 use crate::sampling::SamplerKind;
 use serde_json::{Value, json};
@@ -220,7 +221,7 @@ impl Kept {
     pub fn save(&self) {
         let Some(file) = file() else { return };
         let _ = file.parent().map(fs::create_dir_all);
-        let partial = file.with_extension(format!("{}.part", std::process::id()));
+        let partial = partial_file(&file);
         let _ =
             fs::write(&partial, format!("{:#}\n", self.value())).and_then(|()| fs::rename(&partial, &file));
     }

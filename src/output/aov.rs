@@ -28,7 +28,7 @@ impl Aov {
     /// eight scrambles.
     pub fn channels(self, rendered: &Rendered) -> Vec<Channel> {
         let film = &rendered.film;
-        let pixels = 0..film.width() as usize * film.height() as usize;
+        let pixels = 0..film.pixels();
         let samples = match self {
             Aov::Feature(kind) => {
                 return rendered.features.as_ref().map_or(Vec::new(), |features| features.channels(&[kind]));

@@ -21,9 +21,9 @@ use crate::error::{Error, Result};
 use ::png::EncodingError;
 pub use half::f16;
 use std::fs::{self, File};
+use std::hash::{BuildHasher, RandomState};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU32, Ordering};
 
 /// The file formats in which pictures are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -195,6 +195,14 @@ pub(crate) fn replaced_file(path: &Path) -> io::Result<PathBuf> {
     }
 }
 
+/// A new name beside a file that is to be replaced: short, whatever the file's own is, and different for every file under
+/// way, on all machines that see the folder: 64 random bits.
+pub(crate) fn partial_file(target: &Path) -> PathBuf {
+    // Every one of these states has keys of its own, made from the system's random numbers.
+    let random = RandomState::new().hash_one(std::process::id());
+    target.with_file_name(format!(".pathtracer-{random:016x}.part"))
+}
+
 impl Destination {
     /// Looks whether a picture can be written to `path`, by creating and removing the temporary file beside it. Nothing
     /// that exists is changed. Errors: an unknown extension; a folder that is missing or read-only; a path that is
@@ -207,9 +215,7 @@ impl Destination {
         }
         let failed = |source| Error::Io { action: "write the picture".into(), path: path.into(), source };
         let target = replaced_file(path).map_err(failed)?;
-        // Short, whatever the name of the picture, and different for every picture under way.
-        let number = NUMBER.fetch_add(1, Ordering::Relaxed);
-        let partial = target.with_file_name(format!(".pathtracer-{}-{number}.part", std::process::id()));
+        let partial = partial_file(&target);
         drop(Partial::create(&partial).map_err(failed)?);
         Ok(Destination { path: target, partial, format, depth: format.depths()[0] })
     }
@@ -289,9 +295,6 @@ impl Destination {
         partial.rename_to(&self.path).map_err(failed)
     }
 }
-
-/// Counts the temporary names of this process.
-static NUMBER: AtomicU32 = AtomicU32::new(0);
 
 /// A temporary file that is removed unless it got its final name.
 struct Partial<'p> {

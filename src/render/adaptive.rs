@@ -8,7 +8,7 @@ use super::Settings;
 use super::cells::{Cells, Layout};
 use crate::error::Result;
 use crate::film::file::{Reader, Writer};
-use crate::film::{BLOCK, HALVES, Region, Stops, relative_weight, samples_of_halves};
+use crate::film::{BLOCK, Frame, HALVES, Stops, relative_weight, samples_of_halves};
 use crate::sampling::{SCRAMBLES, Scrambles};
 use std::io;
 use std::ops::Range;
@@ -20,15 +20,12 @@ pub const NOISE_AFTER: u64 = 64;
 pub(super) struct Adaptive {
     target: f64,
     scrambles: Scrambles,
-    width: u32,
-    height: u32,
+    frame: Frame,
     /// The cells of all samples, in the picture or not.
     sums: Cells,
     blocks: Vec<Block>,
     /// Samples that a pixel of a block which has not stopped has.
     samples: u64,
-    /// The pixels that take samples at all.
-    region: Region,
 }
 
 #[derive(Clone, Copy)]
@@ -51,18 +48,16 @@ impl Adaptive {
         Ok(Adaptive {
             target,
             scrambles: settings.scrambles(),
-            width,
-            height,
+            frame: settings.frame(),
             sums: Cells::new(settings, 0)?,
             blocks: (0..count).map(block).collect(),
             samples: 0,
-            region: settings.region,
         })
     }
 
     /// Whether a pixel takes samples.
     pub(super) fn takes(&self, x: u32, y: u32) -> bool {
-        let columns = self.width.div_ceil(BLOCK) as usize;
+        let columns = self.frame.width().div_ceil(BLOCK) as usize;
         self.blocks[(y / BLOCK) as usize * columns + (x / BLOCK) as usize].is_open()
     }
 
@@ -122,7 +117,7 @@ impl Adaptive {
     /// Where the blocks are.
     pub(super) fn stops(&self) -> Result<Stops> {
         let halves = self.blocks.iter().map(|block| block.stops.map(|stop| stop.unwrap_or(self.samples)));
-        Stops::new(self.width, self.height, self.scrambles, halves.collect())
+        Stops::new(self.frame.width(), self.frame.height(), self.scrambles, halves.collect())
     }
 
     /// Stops the halves of a block by what their others see.
@@ -163,11 +158,12 @@ impl Adaptive {
         total / pixels
     }
 
-    /// The pixels of a block.
+    /// The pixels of a block that takes samples.
     fn pixels(&self, number: usize) -> impl Iterator<Item = usize> + use<> {
         let (columns, rows) = self.sides(number);
-        let width = self.width as usize;
-        rows.flat_map(move |y| columns.clone().map(move |x| y as usize * width + x as usize))
+        let length = columns.len();
+        let starts: Vec<usize> = rows.map(|y| self.frame.number(columns.start, y)).collect();
+        starts.into_iter().flat_map(move |start| start..start + length)
     }
 
     /// The number of pixels of a block.
@@ -178,9 +174,10 @@ impl Adaptive {
 
     /// The columns and rows of a block.
     fn sides(&self, number: usize) -> (Range<u32>, Range<u32>) {
-        let columns = self.width.div_ceil(BLOCK);
+        let (width, height) = (self.frame.width(), self.frame.height());
+        let columns = width.div_ceil(BLOCK);
         let (left, top) = (number as u32 % columns * BLOCK, number as u32 / columns * BLOCK);
-        (left..(left + BLOCK).min(self.width), top..(top + BLOCK).min(self.height))
+        (left..(left + BLOCK).min(width), top..(top + BLOCK).min(height))
     }
 }
 
@@ -198,8 +195,7 @@ impl Adaptive {
 
     /// Writes all that is known.
     pub(super) fn write(&self, writer: &mut Writer) -> io::Result<()> {
-        let pixels = self.region.pixels(self.width, self.height);
-        writer.doubles(pixels.flat_map(|pixel| self.sums.cell(pixel).iter().copied()))?;
+        writer.doubles(self.sums.values.iter().copied())?;
         let stops = self.blocks.iter().flat_map(|block| block.stops);
         writer.integers(stops.map(|stop| stop.unwrap_or(OPEN)))?;
         writer.doubles(self.blocks.iter().flat_map(|block| block.squares))
@@ -207,11 +203,7 @@ impl Adaptive {
 
     /// Reads what was written after so many samples.
     pub(super) fn read(&mut self, samples: u64, reader: &mut Reader) -> Result<()> {
-        let stride = Layout::Halved.stride();
-        let values = reader.light(self.region.area(self.width, self.height) * stride as u64)?;
-        for (pixel, cell) in self.region.pixels(self.width, self.height).zip(values.chunks_exact(stride)) {
-            self.sums.cell_mut(pixel).copy_from_slice(cell);
-        }
+        self.sums.values = reader.light(self.sums.values.len() as u64)?;
         let stops = reader.integers((HALVES * self.blocks.len()) as u64)?;
         let squares = reader.light((HALVES * self.blocks.len()) as u64)?;
         let read = stops.as_chunks::<HALVES>().0.iter().zip(squares.as_chunks::<HALVES>().0);

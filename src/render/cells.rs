@@ -8,7 +8,7 @@ use crate::math::Rgb;
 use crate::sampling::{SCRAMBLES, Scrambles};
 use std::ops::Range;
 
-/// One cell a pixel, row by row from the top left.
+/// One cell a pixel, in the order of the render's [`Frame`](crate::film::Frame).
 pub(super) struct Cells {
     /// Samples per pixel so far.
     pub(super) samples: u64,
@@ -101,11 +101,7 @@ impl Cells {
         }
         let mut cells = Cells::new(settings, first)?;
         let stride = cells.layout.stride();
-        let values = reader.light(settings.area() * stride as u64)?;
-        let pixels = settings.region.pixels(settings.width, settings.height);
-        for (pixel, cell) in pixels.zip(values.chunks_exact(stride)) {
-            cells.cell_mut(pixel).copy_from_slice(cell);
-        }
+        cells.values = reader.light(settings.area() * stride as u64)?;
         cells.samples = samples;
         Ok(cells)
     }

@@ -81,7 +81,7 @@ where
             settings,
             watch,
             sample,
-            film: Film::new(settings.width, settings.height, settings.chunk.into()),
+            film: Film::of(settings.frame(), settings.chunk.into()),
             work: Work::default(),
             pace: Pace::new(settings.time),
             meter: Meter::new(settings),
@@ -148,7 +148,6 @@ where
     /// Hands out what it takes to go on from here.
     fn save(&self, cells: Option<&Cells>, is_last: bool) {
         self.watch.keep(&Snapshot {
-            settings: self.settings,
             film: &self.film,
             cells: cells.filter(|cells| cells.samples > 0),
             work: self.work,
@@ -219,12 +218,11 @@ where
         let error_pixels = self.error_pixels.as_ref().filter(|_| samples.start < scrambles.first_round());
         let (clamp, blocks) = (self.settings.clamp, self.blocks.as_ref());
         let side = self.settings.tile_side_for(self.open_pixels());
-        let Settings { region, width, .. } = *self.settings;
-        let pass = Pass { samples, before: cells.samples, clamp, scrambles, blocks, region, width };
+        let pass = Pass { samples, before: cells.samples, clamp, scrambles, blocks };
         let cancelled = || self.watch.cancelled() || self.pace.is_over();
         let (work, sets) = rayon::join(
             || {
-                tile::split(cells, self.settings.width, side)
+                tile::split(cells, self.film.frame(), side)
                     .into_par_iter()
                     .with_max_len(1)
                     .map(|mut tile: Tile<'_>| {

@@ -23,7 +23,7 @@ pub struct Estimate {
 impl Estimate {
     /// Of a render of a scene; `denoise`: whether its picture is denoised.
     pub fn new(desc: &SceneDesc, settings: &Settings, denoise: bool) -> Estimate {
-        let pixels = u64::from(settings.width) * u64::from(settings.height);
+        let pixels = settings.area();
         let features = if settings.features { pixels * 2 * size_of::<Features>() as u64 } else { 0 };
         let mut seen = HashSet::new();
         let meshes = desc.objects.iter().filter_map(|object| match &object.shape {

@@ -13,7 +13,7 @@ use std::io;
 /// What is seen in every pixel.
 #[derive(Clone, Debug)]
 pub struct FeaturePlanes {
-    /// One a pixel, row by row from the top left.
+    /// One a pixel, in the order of the render's frame.
     pixels: Vec<Features>,
 }
 
@@ -57,7 +57,7 @@ impl FeatureKind {
     }
 }
 
-/// Collects `samples(pixel)` samples of every pixel, counted row by row, or one of each pixel that is left when it is cancelled;
+/// Collects `samples(pixel)` samples of every pixel, by its number in the frame, or one of each pixel that is left when it is cancelled;
 /// `feature(x, y, index)` finds one.
 pub(super) fn collect<F>(
     settings: &Settings,
@@ -68,18 +68,13 @@ pub(super) fn collect<F>(
 where
     F: Fn(u32, u32, u64) -> Features + Sync,
 {
-    let (width, scrambles) = (settings.width as usize, settings.scrambles());
+    let (frame, scrambles) = (settings.frame(), settings.scrambles());
     let mut pixels: Vec<Features> = memory::plane(settings)?;
-    pixels.par_chunks_mut(width).enumerate().for_each(|(y, row)| {
-        for (pixel, x) in row.iter_mut().zip(0u32..) {
-            if !settings.region.contains(settings.width, x, y as u32) {
-                continue;
-            }
-            let samples = samples(y * width + x as usize);
-            let samples = if watch.cancelled() { samples.min(1) } else { samples };
-            for sample in 0..samples {
-                *pixel += feature(x, y as u32, scrambles.place(sample).sample_index());
-            }
+    pixels.par_iter_mut().enumerate().for_each(|(number, pixel)| {
+        let ((x, y), samples) = (frame.place(number), samples(number));
+        let samples = if watch.cancelled() { samples.min(1) } else { samples };
+        for sample in 0..samples {
+            *pixel += feature(x, y, scrambles.place(sample).sample_index());
         }
     });
     Ok(FeaturePlanes { pixels })
@@ -96,17 +91,16 @@ impl FeaturePlanes {
         Ok(FeaturePlanes { pixels: memory::plane(settings)? })
     }
 
-    /// Writes those of the region of a render.
-    pub(super) fn write(&self, settings: &Settings, writer: &mut Writer) -> io::Result<()> {
-        let own = || settings.region.pixels(settings.width, settings.height).map(|pixel| &self.pixels[pixel]);
-        writer.doubles(own().flat_map(|p| {
+    /// Writes all of them.
+    pub(super) fn write(&self, writer: &mut Writer) -> io::Result<()> {
+        writer.doubles(self.pixels.iter().flat_map(|p| {
             let vectors = [p.albedo, p.normal, p.position].into_iter().flat_map(|vector| vector.to_array());
             vectors.chain([p.depth])
         }))?;
-        writer.integers(own().flat_map(|p| [p.samples, p.hits, p.object.into()]))
+        writer.integers(self.pixels.iter().flat_map(|p| [p.samples, p.hits, p.object.into()]))
     }
 
-    /// Reads those of a region.
+    /// Reads those of a region into those of a whole picture.
     pub(super) fn read(&mut self, settings: &Settings, region: Region, reader: &mut Reader) -> Result<()> {
         let area = region.area(settings.width, settings.height);
         let doubles = reader.doubles(area * DOUBLES as u64)?;

@@ -9,9 +9,9 @@ use crate::math::Rgb;
 use crate::memory::available_bytes;
 use crate::sampling::SCRAMBLES;
 
-/// The most bytes that the film and its picture take at once. Without a limit of samples, 65,536 are reckoned with.
+/// The most bytes that the film of the render's region and its picture take at once. Without a limit of samples, 65,536 are reckoned with.
 pub fn film_bytes(settings: &Settings) -> u64 {
-    let pixels = u64::from(settings.width) * u64::from(settings.height);
+    let pixels = settings.area();
     let chunk = u64::from(settings.chunk.max(1));
     let samples = if settings.samples == 0 { 1 << 16 } else { settings.samples };
     let radiance = size_of::<Rgb>() as u64;
@@ -52,7 +52,7 @@ pub(super) fn plane<T: Clone + Default>(settings: &Settings) -> Result<Vec<T>> {
 
 /// So many defaults a pixel.
 fn filled<T: Clone + Default>(settings: &Settings, each: usize) -> Result<Vec<T>> {
-    let count = settings.width as usize * settings.height as usize * each;
+    let count = settings.area() as usize * each;
     let mut filled = Vec::new();
     filled.try_reserve_exact(count).map_err(|_| too_large(settings, None))?;
     filled.resize(count, T::default());
@@ -61,7 +61,7 @@ fn filled<T: Clone + Default>(settings: &Settings, each: usize) -> Result<Vec<T>
 
 /// What the film and the features take.
 fn needed_bytes(settings: &Settings) -> u64 {
-    let pixels = u64::from(settings.width) * u64::from(settings.height);
+    let pixels = settings.area();
     // The features and the channels that they become.
     let features = if settings.features { pixels * 2 * size_of::<Features>() as u64 } else { 0 };
     film_bytes(settings).saturating_add(features)

@@ -39,10 +39,9 @@ impl Rendered {
         (cut + found > 0.0).then(|| cut / (cut + found))
     }
 
-    /// The mean over pixels and components.
+    /// The mean over pixels and components; of a part, over its own pixels.
     fn mean_radiance(&self) -> f64 {
-        let pixels = f64::from(self.film.width()) * f64::from(self.film.height());
-        self.film.means().sum::<Rgb>().element_sum() / (3.0 * pixels)
+        self.film.means().sum::<Rgb>().element_sum() / (3.0 * self.film.pixels() as f64)
     }
 
     /// How much darker the mean of the picture (over pixels and components) is for [`Rendered::clamp`], in units of

@@ -6,10 +6,10 @@ use super::error_pixels::ErrorPixels;
 use super::recipe::{RESUMABLE, Recipe};
 use super::tile::Work;
 use super::view::View;
-use super::{Rendered, Settings};
+use super::{Ended, Rendered, Settings};
 use crate::error::{Error, Result};
-use crate::film::file::{FilePlace, FilmRecord, Reader, Writer, copy_pixels};
-use crate::film::{Film, Region};
+use crate::film::file::{FilePlace, FilmRecord, Reader, Writer};
+use crate::film::{BLOCK, Film, HALVES, Region, Stops};
 use serde::{Deserialize, Serialize};
 use std::io;
 use std::path::Path;
@@ -50,13 +50,14 @@ pub(super) struct Header {
     /// Whether where the blocks stopped is told.
     pub(super) has_stops: bool,
     pub(super) has_features: bool,
+    /// Whether there is more noise in a part than was asked for.
+    pub(super) noise_missed: bool,
     /// The seconds and the samples of all passes.
     passed: [f64; 2],
 }
 
 /// A render between two passes.
 pub struct Snapshot<'r> {
-    pub(super) settings: &'r Settings,
     pub(super) film: &'r Film,
     pub(super) cells: Option<&'r Cells>,
     pub(super) work: Work,
@@ -89,17 +90,16 @@ impl Snapshot<'_> {
             blocks: self.blocks.map(Adaptive::samples),
             has_stops: false,
             has_features: false,
+            noise_missed: false,
             passed: self.passed,
         };
-        let Settings { width, height, region, .. } = *self.settings;
         place.write(&header, |writer| {
-            FilmRecord::write(self.film, region, writer)?;
+            FilmRecord::write(self.film, writer)?;
             if let Some(pixels) = self.error_pixels {
                 writer.doubles(pixels.numbers())?;
             }
             if let Some(cells) = self.cells {
-                let pixels = region.pixels(width, height);
-                writer.doubles(pixels.flat_map(|pixel| cells.cell(pixel).iter().copied()))?;
+                writer.doubles(cells.values.iter().copied())?;
             }
             self.blocks.map_or(Ok(()), |blocks| blocks.write(writer))
         })
@@ -109,7 +109,6 @@ impl Snapshot<'_> {
 impl Rendered {
     /// Writes all that was rendered as a part, from which `merge` makes the picture.
     pub fn write_part(&self, place: &FilePlace, origin: &Origin) -> Result<()> {
-        let settings = origin.recipe.settings();
         let header = Header {
             kind: FileKind::Part,
             origin: origin.clone(),
@@ -120,18 +119,19 @@ impl Rendered {
             blocks: None,
             has_stops: self.film.stopped().is_some(),
             has_features: self.features.is_some(),
+            noise_missed: self.film.stopped().is_some() && self.ended != Ended::Complete,
             passed: [0.0; 2],
         };
-        place.write(&header, |writer| self.write_sums(&settings, writer))
+        place.write(&header, |writer| self.write_sums(writer))
     }
 
-    fn write_sums(&self, settings: &Settings, writer: &mut Writer) -> io::Result<()> {
-        FilmRecord::write(&self.film, settings.region, writer)?;
+    fn write_sums(&self, writer: &mut Writer) -> io::Result<()> {
+        FilmRecord::write(&self.film, writer)?;
         writer.doubles(self.error_sums.iter().copied())?;
         if let Some(stops) = self.film.stopped() {
             writer.integers(stops.iter().flatten().copied())?;
         }
-        self.features.as_ref().map_or(Ok(()), |features| features.write(settings, writer))
+        self.features.as_ref().map_or(Ok(()), |features| features.write(writer))
     }
 }
 
@@ -159,6 +159,15 @@ impl FilmFile {
         Ok(FilmFile { header, reader })
     }
 
+    /// What the file at a path says that it is, if it is one; its content is not looked at.
+    pub fn kind_of(path: &Path) -> Option<FileKind> {
+        #[derive(Deserialize)]
+        struct Kind {
+            kind: FileKind,
+        }
+        Reader::header(path).map(|Kind { kind }| kind)
+    }
+
     /// What it is.
     pub fn kind(&self) -> FileKind {
         self.header.kind
@@ -174,11 +183,45 @@ impl FilmFile {
         self.reader.refuse(why)
     }
 
-    /// The sums of the pixels of its region, in one row.
+    /// The sums of the pixels of its region.
     pub(super) fn read_film(&mut self, settings: &Settings) -> Result<Film> {
-        let area = settings.area();
-        let area = u32::try_from(area).map_err(|_| self.refuse("is too large"))?;
-        self.header.film.read(area, &mut self.reader)
+        self.header.film.read(settings.frame(), &mut self.reader)
+    }
+
+    /// Where the blocks of a part stopped, in the order of the picture's blocks.
+    pub(super) fn read_stops(&mut self, settings: &Settings) -> Result<Vec<[u64; HALVES]>> {
+        let blocks = u64::from(settings.width.div_ceil(BLOCK)) * u64::from(settings.height.div_ceil(BLOCK));
+        let stops = self.reader.integers(HALVES as u64 * blocks)?;
+        let samples = self.header.film.samples();
+        Ok(stops.as_chunks::<HALVES>().0.iter().map(|stops| stops.map(|stop| stop.min(samples))).collect())
+    }
+
+    /// The render that made a finished part, but for what is seen and what its error is.
+    ///
+    /// # Errors
+    /// [`Error::Film`] if it does not hold what its header says.
+    pub fn rendered(mut self) -> Result<Rendered> {
+        let settings = self.origin().recipe.settings();
+        let mut film = self.read_film(&settings)?;
+        let error_sums = self.reader.doubles(self.header.error_sums)?;
+        if self.header.has_stops {
+            let stops = self.read_stops(&settings)?;
+            film.set_stops(Stops::new(settings.width, settings.height, settings.scrambles(), stops)?);
+        }
+        let Header { origin, work, noise_missed, .. } = self.header;
+        Ok(Rendered {
+            film,
+            samples: work.samples,
+            counters: work.counters,
+            features: None,
+            clamp: settings.clamp,
+            brightest: origin.brightest,
+            error: None,
+            error_sums,
+            ended: if noise_missed { Ended::OutOfSamples } else { Ended::Complete },
+            build_seconds: 0.0,
+            render_seconds: 0.0,
+        })
     }
 
     /// Where a render of `recipe` goes on.
@@ -195,15 +238,14 @@ impl FilmFile {
                 self.refuse(&format!("is of another render: it differs in {}", differences.join(", ")))
             );
         }
-        let (compact, range) = (self.read_film(settings)?, settings.chunk_range());
-        let mut film = Film::new(settings.width, settings.height, settings.chunk.into());
-        let taken = compact.samples();
-        let is_run = match compact.runs().as_slice() {
+        let (mut film, range) = (self.read_film(settings)?, settings.chunk_range());
+        let taken = film.samples();
+        let is_run = match film.runs().as_slice() {
             [] => true,
             [run] => run.start == range.start && (run.end - run.start) * u64::from(settings.chunk) == taken,
             _ => false,
         };
-        if !is_run || !copy_pixels(compact, settings.region, &mut film) {
+        if !is_run {
             return Err(self.refuse("does not hold the first chunks"));
         }
         let Header { work, error_sums, cells, blocks, passed, .. } = self.header;

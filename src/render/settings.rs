@@ -6,7 +6,7 @@ use super::{
 };
 use crate::accel::{BvhQuality, Isa, Precision, check_isa};
 use crate::error::{Error, Result};
-use crate::film::Region;
+use crate::film::{Frame, Region};
 use crate::sampling::{SamplerKind, Scrambles};
 use std::ops::Range;
 use std::time::Duration;
@@ -60,7 +60,7 @@ pub struct Settings {
     pub time: Option<Duration>,
     /// Whether features are collected too: albedo, normals, depth, positions, objects. They do not change the light.
     pub features: bool,
-    /// The pixels that take samples; the others stay black.
+    /// The pixels that take samples; the film holds no others.
     pub region: Region,
     /// The chunks of [`Settings::chunk`] samples that are taken, of those of all `samples`; `None` for all.
     pub chunks: Option<Range<u64>>,
@@ -192,7 +192,12 @@ impl Settings {
         end.saturating_mul(chunk).min(self.most_samples()).saturating_sub(start.saturating_mul(chunk))
     }
 
-    /// The pixels that take samples.
+    /// The pixels that take samples, as planes of them are numbered.
+    pub fn frame(&self) -> Frame {
+        Frame::new(self.width, self.height, self.region)
+    }
+
+    /// How many they are.
     pub fn area(&self) -> u64 {
         self.region.area(self.width, self.height)
     }

@@ -32,9 +32,8 @@ impl<'r> SoFar<'r> {
     pub fn means(&self, means: &mut Vec<Rgb>) {
         means.clear();
         let Some(cells) = self.cells else { return means.extend(self.film.means()) };
-        let pixels = self.film.width() as usize * self.film.height() as usize;
         let weight = 1.0 / self.samples().max(1) as f64;
         let mean = |pixel| self.film.sum_after(Some(cells.sum(pixel)), pixel) * weight;
-        means.extend((0..pixels).map(mean));
+        means.extend((0..self.film.pixels()).map(mean));
     }
 }

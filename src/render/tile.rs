@@ -3,7 +3,7 @@
 use super::adaptive::Adaptive;
 use super::cells::{Cells, Layout};
 use super::{FIREFLY, FIREFLY_BEFORE};
-use crate::film::{Region, grey};
+use crate::film::{Frame, Run, grey};
 use crate::integrator::Counters;
 use crate::math::Rgb;
 use crate::sampling::{Place, Scrambles};
@@ -22,10 +22,6 @@ pub(super) struct Pass<'a> {
     pub(super) scrambles: Scrambles,
     /// Which blocks get them, if not all.
     pub(super) blocks: Option<&'a Adaptive>,
-    /// Which pixels of the picture get them.
-    pub(super) region: Region,
-    /// Of the picture.
-    pub(super) width: u32,
 }
 
 /// What a tile did.
@@ -36,29 +32,44 @@ pub(super) struct Work {
     pub(super) counters: Counters,
 }
 
-/// A rectangle of a plane of cells.
+/// The pixels of a plane of cells that lie in one square.
 pub(super) struct Tile<'p> {
+    layout: Layout,
+    rows: Vec<Row<'p>>,
+}
+
+/// Cells side by side.
+struct Row<'p> {
     x: u32,
     y: u32,
-    layout: Layout,
-    rows: Vec<&'p mut [f64]>,
+    cells: &'p mut [f64],
 }
 
-/// Cuts a plane with rows of `width` pixels into tiles of `side` x `side` pixels, fewer at the right and lower edges.
-pub(super) fn split(cells: &mut Cells, width: u32, side: u32) -> Vec<Tile<'_>> {
-    let Cells { values, layout, .. } = cells;
-    let layout = *layout;
-    let band_values = width as usize * side as usize * layout.stride();
-    let bands = values.chunks_mut(band_values).zip((0..).step_by(side as usize));
-    bands.flat_map(|(band, y)| split_band(band, layout, width, side, y)).collect()
-}
-
-fn split_band(band: &mut [f64], layout: Layout, width: u32, side: u32, y: u32) -> Vec<Tile<'_>> {
-    let mut tiles: Vec<Tile<'_>> =
-        (0..width).step_by(side as usize).map(|x| Tile { x, y, layout, rows: Vec::new() }).collect();
-    for row in band.chunks_mut(width as usize * layout.stride()) {
-        let parts = row.chunks_mut(side as usize * layout.stride());
-        tiles.iter_mut().zip(parts).for_each(|(tile, part)| tile.rows.push(part));
+/// Cuts the plane of a frame into tiles of `side` x `side` pixels, row by row; where the frame has no pixels there are none.
+pub(super) fn split<'c>(cells: &'c mut Cells, frame: &Frame, side: u32) -> Vec<Tile<'c>> {
+    let layout = cells.layout;
+    let mut rest = cells.values.as_mut_slice();
+    let mut tiles: Vec<Tile<'c>> = Vec::new();
+    // The tiles under way, by column.
+    let mut band = 0;
+    let mut open: Vec<Option<usize>> = vec![None; frame.width().div_ceil(side) as usize];
+    for Run { x: Range { start: mut x, end }, y } in frame.runs() {
+        if y / side != band {
+            band = y / side;
+            open.fill(None);
+        }
+        while x < end {
+            let next = (x / side + 1).saturating_mul(side).min(end);
+            let values = layout.stride() * (next - x) as usize;
+            let (cells, after) = std::mem::take(&mut rest).split_at_mut(values);
+            rest = after;
+            let tile = *open[(x / side) as usize].get_or_insert_with(|| {
+                tiles.push(Tile { layout, rows: Vec::new() });
+                tiles.len() - 1
+            });
+            tiles[tile].rows.push(Row { x, y, cells });
+            x = next;
+        }
     }
     tiles
 }
@@ -72,9 +83,10 @@ impl Tile<'_> {
     {
         let mut work = Work::default();
         let layout = self.layout;
-        for (row, y) in self.rows.iter_mut().zip(self.y..) {
-            for (cell, x) in row.chunks_exact_mut(layout.stride()).zip(self.x..) {
-                if !pass.takes(x, y) {
+        for Row { x, y, cells } in &mut self.rows {
+            let y = *y;
+            for (cell, x) in cells.chunks_exact_mut(layout.stride()).zip(*x..) {
+                if !pass.blocks.is_none_or(|blocks| blocks.takes(x, y)) {
                     continue;
                 }
                 if cancelled() {
@@ -106,15 +118,6 @@ impl AddAssign for Work {
 }
 
 impl Pass<'_> {
-    /// Whether a pixel takes samples.
-    #[inline]
-    fn takes(&self, x: u32, y: u32) -> bool {
-        match self.blocks {
-            Some(blocks) => blocks.takes(x, y),
-            None => self.region.contains(self.width, x, y),
-        }
-    }
-
     /// What the sample at a place adds to its pixel.
     #[inline]
     pub(super) fn take<F>(

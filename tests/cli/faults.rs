@@ -99,6 +99,33 @@ fn a_second_signal_ends_at_once_and_leaves_no_half_file() {
     }
 }
 
+/// A task that was given to two machines: what the faster one has finished stays, even if the slower one is killed.
+#[test]
+fn a_checkpoint_does_not_replace_the_part_that_another_task_has_finished() {
+    let folder = Folder::new();
+    folder.run("ball.yaml 64 48 16 4 done.film --part 0/1 -q").succeeds();
+    let done = folder.read("done.film");
+    let render = "ball.yaml 64 48 4294967296 4 a.film --part 0/1 --every 100ms --json -q";
+    let mut child =
+        folder.command(render).stdout(Stdio::piped()).stderr(Stdio::null()).spawn().expect("a child");
+    let mut reader = BufReader::new(child.stdout.take().expect("a pipe"));
+    let mut progress = |wanted: usize| {
+        let mut line = String::new();
+        let mut seen = 0;
+        while seen < wanted && reader.read_line(&mut line).expect("a line") > 0 {
+            seen += usize::from(line.contains("\"progress\""));
+            line.clear();
+        }
+    };
+    progress(1);
+    fs::rename(folder.path("done.film"), folder.path("a.film")).expect("a finished part");
+    // One event a second: time for many checkpoints.
+    progress(2);
+    child.kill().expect("a kill");
+    child.wait().expect("an end");
+    assert!(folder.read("a.film") == done);
+}
+
 #[test]
 fn an_interrupted_part_goes_on_where_it_was() {
     let folder = Folder::new();

@@ -89,6 +89,64 @@ fn a_part_that_is_there_is_not_made_again() {
 }
 
 #[test]
+fn a_part_that_is_there_is_told_as_done() {
+    let folder = Folder::new();
+    let command = format!("{RENDER} 0.film --part 0/2 --noise 0.001 --clamp 0.5 --json");
+    let last = |ended: super::Ended| -> serde_json::Value {
+        ended.succeeds();
+        serde_json::from_str(ended.stdout.lines().last().expect("an event")).expect("JSON")
+    };
+    let made = last(folder.run(&command));
+    let again = folder.run(&command);
+    assert!(again.stdout.lines().next().is_some_and(|line| line.contains("\"start\"")), "{}", again.stdout);
+    let found = last(again);
+    assert_eq!((&made["event"], &found["event"]), (&"done".into(), &"done".into()));
+    for name in ["samples_taken", "all_samples", "noise_missed", "rays", "cut_light", "clamped_samples", "clamp_bias"] {
+        assert_eq!(made[name], found[name], "{name}");
+    }
+}
+
+/// The notes of a render about what its film holds.
+fn notes(ended: &super::Ended) -> Vec<String> {
+    ended.stderr.lines().filter(|line| line.starts_with("note: ")).map(str::to_owned).collect()
+}
+
+#[test]
+fn a_merge_says_of_the_picture_what_one_render_says() {
+    for splits in [&["--part 0/2", "--part 1/2"][..], &["--crop 0,0,16,36", "--crop 16,0,40,36"]] {
+        let folder = Folder::new();
+        let options = "--noise 0.001 --clamp 0.5";
+        let whole = folder.run(&format!("ball.yaml 40 36 70 1 whole.exr {options}"));
+        for (number, split) in splits.iter().enumerate() {
+            folder.run(&format!("ball.yaml 40 36 70 1 {number}.film {options} {split} -q")).succeeds();
+        }
+        let merged = folder.run("merge 1.film 0.film a.exr");
+        assert_eq!(notes(&merged), notes(&whole));
+        let expected = ["cut paths", "were clamped", "did not bring the error below"];
+        let has = |words: &&str| notes(&merged).iter().any(|note| note.contains(words));
+        assert!(expected.iter().all(has), "{}", merged.stderr);
+    }
+}
+
+/// However many parts there are, few files are open at once.
+#[cfg(unix)]
+#[test]
+fn parts_are_read_one_after_the_other() {
+    let folder = Folder::new();
+    let render = "ball.yaml 128 80 1 2";
+    for part in 0..40 {
+        folder.run(&format!("{render} {part:02}.film --part {part}/40 -q")).succeeds();
+    }
+    let program = env!("CARGO_BIN_EXE_pathtracer");
+    let words = format!("ulimit -n 24; exec {program} merge *.film a.png -q");
+    let mut command = std::process::Command::new("sh");
+    command.args(["-c", &words]).current_dir(folder.path(""));
+    super::Ended::from(command.output().expect("a shell")).succeeds();
+    folder.run(&format!("{render} whole.png -q")).succeeds();
+    assert!(folder.read("a.png") == folder.read("whole.png"));
+}
+
+#[test]
 fn a_missing_part_is_named_with_the_command_that_makes_it() {
     for (split, missing) in [
         (&["--part 0/3", "--part 2/3"][..], "--part 1/3"),

@@ -3,6 +3,9 @@
 use super::{Job, RenderArguments};
 use std::path::PathBuf;
 
+/// The most parts: the names of so many fit on the command line of the merge, which takes 2 MB on Linux.
+const MOST_PARTS: i64 = 10_000;
+
 /// For which engine.
 #[derive(Debug, clap::Subcommand)]
 pub(in crate::cli) enum FarmCommand {
@@ -18,7 +21,7 @@ pub(in crate::cli) enum FarmCommand {
 #[derive(Debug, clap::Args)]
 pub(in crate::cli) struct FarmArguments {
     /// The number of parts
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1000))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=MOST_PARTS))]
     parts: u32,
     /// Where the parts go [default: IMAGE.parts]
     #[arg(long, value_name = "FOLDER")]

@@ -36,7 +36,7 @@ const MOST_HEADER: u32 = 1 << 20;
 /// Bytes that are read and written at once.
 const BUFFER: usize = 1 << 20;
 
-/// An error about a film file.
-fn refused(path: &Path, why: &str) -> Error {
+/// An error about a film file; `why` goes on after its name.
+pub(crate) fn refused(path: &Path, why: &str) -> Error {
     Error::Film(format!("{} {why}", path.display()))
 }

@@ -31,23 +31,17 @@ impl Reader {
         let file = File::open(path).map_err(failed)?;
         let bytes = file.metadata().map_err(failed)?.len();
         let mut file = BufReader::with_capacity(BUFFER, file);
-        let mut prefix = [0; PREFIX as usize];
-        let is_film =
-            bytes >= PREFIX + CHECKSUM && file.read_exact(&mut prefix).is_ok() && prefix[..8] == MAGIC;
-        if !is_film {
+        let Some([format, length]) = begin(&mut file).filter(|_| bytes >= PREFIX + CHECKSUM) else {
             return Err(refused(path, "is neither a checkpoint nor a part of a picture"));
-        }
-        let number =
-            |at: usize| u32::from_le_bytes([prefix[at], prefix[at + 1], prefix[at + 2], prefix[at + 3]]);
-        if number(8) != FORMAT {
-            let why = format!("has format {}, and this program reads format {FORMAT}", number(8));
+        };
+        if format != FORMAT {
+            let why = format!("has format {format}, and this program reads format {FORMAT}");
             return Err(refused(path, &why));
         }
         check_sum(&mut file, bytes)
             .map_err(failed)?
             .then_some(())
             .ok_or_else(|| refused(path, "is damaged: its checksum is not that of its content"))?;
-        let length = number(12);
         if length > MOST_HEADER || u64::from(length) > bytes - PREFIX - CHECKSUM {
             return Err(refused(path, "has a header that is too long"));
         }
@@ -60,9 +54,16 @@ impl Reader {
         Ok((header, Reader { path: path.into(), file, left }))
     }
 
-    /// The file.
-    pub fn path(&self) -> &Path {
-        &self.path
+    /// The header alone, of a file whose content is not looked at; `None` where there is none, or another one.
+    pub fn header<H: DeserializeOwned>(path: &Path) -> Option<H> {
+        let mut file = File::open(path).ok()?;
+        let [format, length] = begin(&mut file)?;
+        if format != FORMAT || length > MOST_HEADER {
+            return None;
+        }
+        let mut header = vec![0; length as usize];
+        file.read_exact(&mut header).ok()?;
+        serde_json::from_slice(&header).ok()
     }
 
     /// Reads `count` f64.
@@ -120,6 +121,15 @@ impl Reader {
         }
         Ok(values)
     }
+}
+
+/// The format of a film file and the length of its header.
+fn begin(file: &mut impl Read) -> Option<[u32; 2]> {
+    let mut prefix = [0; PREFIX as usize];
+    file.read_exact(&mut prefix).ok()?;
+    let (magic, numbers) = prefix.split_first_chunk()?;
+    let numbers = numbers.as_chunks().0;
+    (*magic == MAGIC).then(|| [numbers[0], numbers[1]].map(u32::from_le_bytes))
 }
 
 /// Whether the last bytes are the checksum of those before.

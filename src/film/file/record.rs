@@ -1,8 +1,8 @@
-//! A film in a file: only the pixels of its region, node by node.
+//! A film in a file, node by node.
 
 use super::{Reader, Writer};
 use crate::error::Result;
-use crate::film::{Film, Greys, Node, Region, Sums};
+use crate::film::{Film, Frame, Greys, Node, Sums};
 use crate::math::Rgb;
 use crate::sampling::SCRAMBLES;
 use serde::{Deserialize, Serialize};
@@ -62,28 +62,27 @@ impl FilmRecord {
         self.nodes.iter().fold(0, |sum, node| node.samples.saturating_add(sum))
     }
 
-    /// Writes the sums of a film in this region.
-    pub fn write(film: &Film, region: Region, writer: &mut Writer) -> io::Result<()> {
-        let pixels = || region.pixels(film.width, film.height);
+    /// Writes the sums of a film.
+    pub fn write(film: &Film, writer: &mut Writer) -> io::Result<()> {
         for Node { sums, .. } in &film.nodes {
-            for plane in [&sums.radiance, &sums.odd].into_iter().filter(|plane| !plane.is_empty()) {
-                writer.doubles(pixels().flat_map(|pixel| plane[pixel].to_array()))?;
-            }
+            writer.doubles(sums.radiance.iter().flat_map(|sum| sum.to_array()))?;
+            writer.doubles(sums.odd.iter().flat_map(|sum| sum.to_array()))?;
             match &sums.greys {
                 Greys::Unknown => {}
-                Greys::One(_, greys) => writer.floats(pixels().map(|pixel| greys[pixel]))?,
-                Greys::All(greys) => writer.floats(pixels().flat_map(|pixel| greys[pixel]))?,
+                Greys::One(_, greys) => writer.floats(greys.iter().copied())?,
+                Greys::All(greys) => writer.floats(greys.iter().flatten().copied())?,
             }
         }
         Ok(())
     }
 
-    /// Reads what was written of `pixels` pixels: a film with one row of so many.
-    pub fn read(&self, pixels: u32, reader: &mut Reader) -> Result<Film> {
+    /// Reads what was written of the pixels of a frame.
+    pub fn read(&self, frame: Frame, reader: &mut Reader) -> Result<Film> {
         if self.chunk == 0 || self.chunk > u64::from(u32::MAX) || self.nodes.len() > MOST_NODES {
             return Err(reader.refuse("holds a film that can't be"));
         }
-        let mut film = Film::new(pixels, 1, self.chunk);
+        let pixels = frame.pixels() as u64;
+        let mut film = Film::of(frame, self.chunk);
         for record in &self.nodes {
             let node = record.read(self.chunk, pixels, reader)?;
             film.insert(node).map_err(|_| reader.refuse("holds a chunk twice"))?;
@@ -93,8 +92,7 @@ impl FilmRecord {
 }
 
 impl NodeRecord {
-    fn read(&self, chunk: u64, pixels: u32, reader: &mut Reader) -> Result<Node> {
-        let count = u64::from(pixels);
+    fn read(&self, chunk: u64, count: u64, reader: &mut Reader) -> Result<Node> {
         let is_known = !matches!(self.greys, GreysRecord::Unknown);
         let counted = self.counts.iter().try_fold(0u64, |sum, &count| sum.checked_add(count));
         let can_be = self.chunks.is_power_of_two()
@@ -126,14 +124,14 @@ impl NodeRecord {
     }
 }
 
-/// Copies the film of a region, with one row of its pixels, to its places in the film of the whole picture. An empty film
-/// takes over its chunks; else both must have the same. Whether they had.
-pub fn copy_pixels(from: Film, region: Region, to: &mut Film) -> bool {
-    if region == Region::All && to.nodes.is_empty() {
+/// Copies the film of a region to its places in the film of the whole picture. An empty film takes over its chunks; else
+/// both must have the same. Whether they had.
+pub fn copy_pixels(from: Film, to: &mut Film) -> bool {
+    if from.frame == to.frame && to.nodes.is_empty() {
         to.nodes = from.nodes;
         return true;
     }
-    let pixels = to.width as usize * to.height as usize;
+    let pixels = to.pixels();
     if to.nodes.is_empty() {
         to.nodes = from.nodes.iter().map(|node| node.spread(pixels)).collect();
     }
@@ -142,8 +140,9 @@ pub fn copy_pixels(from: Film, region: Region, to: &mut Film) -> bool {
     if !is_alike {
         return false;
     }
+    let own = from.frame.region();
     for (to_node, from) in to.nodes.iter_mut().zip(from.nodes) {
-        for (source, pixel) in region.pixels(to.width, to.height).enumerate() {
+        for (source, pixel) in own.pixels(to.frame.width(), to.frame.height()).enumerate() {
             to_node.sums.set(pixel, &from.sums, source);
         }
     }
@@ -199,7 +198,7 @@ impl Film {
     /// Adds samples without light, until there are `samples`, as a render has them where its blocks have stopped; `counts`
     /// tells how many of the first so many samples lie in each scramble.
     pub fn extend(&mut self, samples: u64, counts: impl Fn(u64) -> [u64; SCRAMBLES]) -> Result<()> {
-        let pixels = self.width as usize * self.height as usize;
+        let pixels = self.pixels();
         while self.samples() < samples {
             let before = self.samples();
             let first = before / self.chunk;

@@ -2,7 +2,7 @@
 
 use super::{BUFFER, FORMAT, MAGIC};
 use crate::error::{Error, Result};
-use crate::picture::replaced_file;
+use crate::picture::{partial_file, replaced_file};
 use serde::Serialize;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
@@ -22,9 +22,10 @@ impl FilePlace {
     pub fn new(path: &Path) -> Result<FilePlace> {
         let failed = |source| failed(path, source);
         let target = replaced_file(path).map_err(failed)?;
-        let name = target.file_name().ok_or_else(|| failed(io::ErrorKind::InvalidInput.into()))?;
-        let partial =
-            target.with_file_name(format!(".{}-{}.part", name.to_string_lossy(), std::process::id()));
+        if target.file_name().is_none() {
+            return Err(failed(io::ErrorKind::InvalidInput.into()));
+        }
+        let partial = partial_file(&target);
         File::create(&partial).and_then(|_| fs::remove_file(&partial)).map_err(failed)?;
         Ok(FilePlace { path: target, partial })
     }

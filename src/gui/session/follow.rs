@@ -122,9 +122,8 @@ impl<'f> Follow<'f> {
 
 /// The standard errors of all pixels.
 fn error_bars(film: &Film) -> Vec<f32> {
-    let pixels = film.width() as usize * film.height() as usize;
     let of = |pixel| film.error_bar(pixel).map_or(0.0, |bar| bar.standard_error as f32);
-    (0..pixels).into_par_iter().map(of).collect()
+    (0..film.pixels()).into_par_iter().map(of).collect()
 }
 
 /// Standard errors from how far the mean of all samples is from that of the first half: half of the difference of two means
