@@ -5,9 +5,12 @@ use pathtracer::error::Error;
 use pathtracer::film::file::{FilePlace, FilmRecord, Reader};
 use pathtracer::film::{Film, Frame, Region, Run, Sums};
 use pathtracer::math::{DVec3, Rgb};
+use pathtracer::picture::{Decoded, Pixels};
 use pathtracer::render::{Estimate, FilmFile, Settings, film_bytes, merge};
+use pathtracer::scene::desc::{EnvironmentMapDesc, PictureDesc, SceneDesc};
 use std::fs;
 use std::path::Path;
+use std::sync::Arc;
 use xxhash_rust::xxh3::xxh3_128;
 
 /// A film file with this header and these sums; its checksum is right.
@@ -182,6 +185,33 @@ fn too_little_memory_is_an_error_that_names_what_is_large() {
     let large = Estimate::new(&desc, &Settings { features: true, ..Settings::new(8000, 8000, 16, 4) }, true);
     let error = large.check_against(1 << 30).expect_err("too little").to_string();
     assert!(error.contains("the film") && error.contains("the denoiser"), "{error}");
+}
+
+#[test]
+fn textures_and_the_sky_count_as_memory_each_file_once() {
+    let picture = |pixels: Pixels| {
+        let picture = Decoded { width: 1000, height: 1000, pixels, is_encoded: false };
+        PictureDesc { file: "a.exr".into(), picture: Arc::new(picture), is_encoded: false }
+    };
+    let shape = build::ball(DVec3::ZERO, 1.0);
+    let plain = || build::diffuse(build::grey(0.5));
+    let mut desc = build::scene(DVec3::ZERO, DVec3::X, vec![(shape.clone(), plain()), (shape, plain())]);
+    let settings = Settings::new(8, 8, 16, 4);
+    let bytes = |desc: &SceneDesc| Estimate::new(desc, &settings, false).bytes();
+    let without = bytes(&desc);
+    let floats = picture(Pixels::Floats(vec![0.5; 3_000_000]));
+    desc.objects.iter_mut().for_each(|object| object.material.textures.color = Some(floats.clone()));
+    // Three floats a pixel, and a third of that.
+    assert_eq!(bytes(&desc) - without, 16_000_000);
+    desc.objects[1].material.textures.color = Some(picture(Pixels::Bytes(vec![128; 3_000_000])));
+    assert_eq!(bytes(&desc) - without, 20_000_000);
+    desc.environment_map = Some(EnvironmentMapDesc { picture: floats, rotation: 0.0 });
+    assert_eq!(bytes(&desc) - without, 44_000_000);
+    let error =
+        Estimate::new(&desc, &settings, false).check_against(1 << 20).expect_err("too little").to_string();
+    let places =
+        ["the environment map", "textures", "a smaller picture takes less"].map(|part| error.find(part));
+    assert!(places.iter().all(Option::is_some) && places.is_sorted(), "{error}");
 }
 
 #[cfg(feature = "embree")]

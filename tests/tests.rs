@@ -17,6 +17,8 @@ mod generate;
 /// Pictures in files: curve, formats, whole or not at all.
 mod picture;
 
+/// Files that are no pictures, or no whole ones.
+mod damaged_pictures;
 /// Formats of OpenImageIO.
 #[cfg(feature = "oiio")]
 mod oiio;
@@ -49,6 +51,8 @@ mod environment_map;
 mod lights;
 /// Materials of OBJ files.
 mod materials_of_files;
+/// Pictures seen from afar: cones, footprints, smaller copies.
+mod mip_maps;
 /// Pictures as colours of surfaces.
 mod textures;
 /// Light transport against closed forms: furnaces, lights of every shape, the sky.

@@ -36,7 +36,7 @@ fn seen(shape: &ShapeDesc, picture: &PictureDesc, eye: DVec3, target: DVec3) -> 
     let ray = Ray::new(eye - world.origin, (target - eye).normalize());
     let hit = BruteForce::new(&world.geometry).intersect(&ray).expect("a hit");
     let at = world.interaction(&ray, &hit);
-    let Some(Material::Diffuse(diffuse)) = world.varied_material(&hit, &at) else {
+    let Some(Material::Diffuse(diffuse)) = world.varied_material(&hit, &at, 0.0) else {
         panic!("a varied material")
     };
     diffuse.color.x

@@ -5,6 +5,7 @@ mod compare;
 mod diff;
 mod farm;
 mod merge;
+mod shared;
 mod tradeoff;
 mod values;
 

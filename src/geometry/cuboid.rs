@@ -85,6 +85,17 @@ impl Cuboid {
         }
     }
 
+    /// The lengths of a face along the coordinates of [`Cuboid::face_coordinates`].
+    pub fn face_lengths(&self, face: u32) -> [f64; 2] {
+        let DVec3 { x, y, z } = self.half;
+        let half = match face {
+            0 | 1 => [y, z],
+            2 | 3 => [x, z],
+            _ => [y, x],
+        };
+        half.map(|half| 2.0 * half)
+    }
+
     /// A face as a rectangle whose front is outside, with the coordinates of [`Cuboid::face_coordinates`].
     pub fn face(&self, face: u32) -> Rectangle {
         let [x, y, z] = [DVec3::X * self.half.x, DVec3::Y * self.half.y, DVec3::Z * self.half.z];

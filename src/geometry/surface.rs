@@ -130,6 +130,18 @@ impl Geometry {
         }
     }
 
+    /// The edges of a triangle, of an instance or not, from its first corner to the second and the third, and the world
+    /// length of their unit; their directions are turned alike, not those of the world. `None` of other primitives.
+    pub fn triangle_edges(&self, primitive: PrimitiveId) -> Option<([DVec3; 2], f64)> {
+        let triangle = primitive.as_triangle()?;
+        let (space, scale) = match primitive.as_solid().map(|solid| &self.solids[solid as usize].shape) {
+            Some(Shape::Instance(instance)) => (self.space_of(instance), instance.scale),
+            _ => (&self.spaces[primitive.space()? as usize], 1.0),
+        };
+        let [a, b, c] = space.corners(triangle);
+        Some(([b - a, c - a], scale * space.frame.inverse_scale))
+    }
+
     /// The point of a triangle, of an instance or not, with these weights of its second and third corner.
     #[inline]
     pub fn triangle_point(&self, primitive: PrimitiveId, u: f64, v: f64) -> SurfacePoint {

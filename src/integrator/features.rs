@@ -62,6 +62,7 @@ impl<A: Accelerator> FeatureTracer<'_, A> {
         let [dx, dy] = numbers.pixel();
         let mut ray = self.camera.ray(f64::from(x) + dx, f64::from(y) + dy, || numbers.lens());
         let mut features = Features { samples: 1, ..Features::default() };
+        let mut cone = self.camera.cone(ray.direction);
         let mut throughput = Rgb::ONE;
         for segment in 1..=MOST_SPECULAR {
             let Some(hit) = self.accelerator.intersect(&ray) else {
@@ -76,7 +77,8 @@ impl<A: Accelerator> FeatureTracer<'_, A> {
                 features.position = position + self.world.origin;
                 features.object = hit.object + 1;
             }
-            let varied = self.world.varied_material(&hit, &at);
+            cone = cone.at(hit.t);
+            let varied = self.world.varied_material(&hit, &at, cone.width);
             let material = varied.as_ref().unwrap_or_else(|| self.world.material(hit.object));
             features.normal = at.normal;
             features.albedo = throughput * albedo(material, self.world.emission(hit.object));
@@ -90,6 +92,7 @@ impl<A: Accelerator> FeatureTracer<'_, A> {
                 return features;
             };
             throughput *= scatter.weight;
+            cone = self.world.cone_beyond(cone, ray.direction, &at, material, &scatter);
             ray = at.receiver.point.leave(scatter.direction);
         }
         features

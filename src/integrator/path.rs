@@ -10,7 +10,7 @@ use crate::material::{Material, Pdf};
 use crate::math::{DVec3, Rgb};
 use crate::sampling::Sampler;
 use crate::world::light::{LightSample, LightTarget, Receiver};
-use crate::world::{Camera, Interaction, World};
+use crate::world::{Camera, Cone, Interaction, World};
 
 /// Estimates the radiance that arrives at the camera.
 pub struct PathTracer<'a, A> {
@@ -28,6 +28,8 @@ pub struct PathTracer<'a, A> {
     branches: u32,
     /// One over the brightest light, 0 without lights.
     light_scale: f64,
+    /// Whether surfaces show pictures.
+    textured: bool,
 }
 
 /// How the last direction of a path was chosen: what weighs light that it meets.
@@ -55,6 +57,8 @@ pub(super) struct Surface {
 struct Path<'s, S> {
     numbers: Numbers<'s, S>,
     ray: Ray,
+    /// How much the ray stands for; not kept without textures.
+    cone: Cone,
     /// How far the ray's origin was moved off the surface that it left; 0 of the camera's.
     offset: f64,
     /// Factor on all light that the path still meets.
@@ -96,6 +100,7 @@ impl<'a, A: Accelerator> PathTracer<'a, A> {
             caustics,
             branches,
             light_scale,
+            textured: world.requires.textures > 0,
         }
     }
 
@@ -114,6 +119,7 @@ impl<'a, A: Accelerator> PathTracer<'a, A> {
         let mut path = Path {
             numbers,
             ray,
+            cone: self.camera.cone(ray.direction),
             offset: 0.0,
             throughput: Rgb::ONE,
             radiance: Rgb::ZERO,
@@ -179,7 +185,7 @@ impl<'a, A: Accelerator> PathTracer<'a, A> {
             counters.cut_throughput.add(path.part());
             return None;
         }
-        let varied = self.world.varied_material(&hit, &at);
+        let varied = self.world.varied_material(&hit, &at, path.cone.width);
         let material = varied.unwrap_or_else(|| *self.world.material(hit.object));
         let aims = self.light_sampling && !material.is_delta();
         let surface = Surface { at, material, aims };
@@ -221,6 +227,9 @@ impl<'a, A: Accelerator> PathTracer<'a, A> {
             return None;
         };
         counters.self_hits += u64::from(path.meets_itself(&hit));
+        if self.textured {
+            path.cone = path.cone.at(hit.t);
+        }
         let at = self.world.interaction(&path.ray, &hit);
         let emission = self.world.emission(hit.object);
         if emission != Rgb::ZERO {
@@ -316,6 +325,10 @@ impl<'a, A: Accelerator> PathTracer<'a, A> {
             Pdf::SolidAngle(pdf) if *aims => Chosen::ByMaterial { pdf, receiver: at.receiver },
             _ => self.by_way_of_ball(&path.chosen, path.ray.direction, at, scatter.direction),
         };
+        if self.textured {
+            let arrived = path.ray.direction;
+            path.cone = self.world.cone_beyond(path.cone, arrived, at, material, &scatter);
+        }
         let point = &at.receiver.point;
         path.ray = point.leave(scatter.direction);
         path.offset = point.error.dot(path.ray.side.abs());

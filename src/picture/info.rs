@@ -1,9 +1,8 @@
 //! What a picture file says about itself, read without its pixels.
 
-use super::Format;
 use super::metadata::{Metadata, Value};
-use super::oiio;
 use super::read::{check_start, failed, refused};
+use super::{Format, hdr, oiio};
 use crate::error::Result;
 use exr::meta::MetaData;
 use exr::meta::attribute::{AttributeValue, Text};
@@ -40,7 +39,10 @@ impl Info {
             other => {
                 let other = other.ok();
                 check_start(path, other)?;
-                let ([width, height], metadata) = oiio::info(path).map_err(damaged)?;
+                let ([width, height], mut metadata) = oiio::info(path).map_err(damaged)?;
+                if other == Some(Format::Hdr) {
+                    metadata = hdr::metadata(file).map_err(failed(path))?;
+                }
                 let format = other.map_or("a picture", Format::name);
                 Ok(Info { format, width, height, channels: Vec::new(), metadata })
             }

@@ -2,6 +2,7 @@
 
 mod denoise;
 mod exr;
+mod hdr;
 mod info;
 mod metadata;
 #[cfg_attr(not(feature = "oiio"), path = "oiio_missing.rs")]
@@ -279,6 +280,10 @@ impl Destination {
         if self.format.needs_library() {
             oiio::write(&self.partial, self.format.row().2, (width, height), pixels, metadata)
                 .map_err(refused)?;
+            if self.format == Format::Hdr {
+                let bytes = fs::read(&self.partial).map_err(failed)?;
+                fs::write(&self.partial, hdr::with_metadata(&bytes, metadata)).map_err(failed)?;
+            }
             return partial.rename_to(&self.path).map_err(failed);
         }
         let mut writer = BufWriter::with_capacity(1 << 20, &partial.file);

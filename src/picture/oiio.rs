@@ -6,6 +6,7 @@
 
 use super::metadata::{Metadata, Value};
 use super::{Decoded, Pixels};
+use crate::memory::available_bytes;
 use libloading::Library;
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
 use std::fs::{self, File, OpenOptions};
@@ -23,7 +24,7 @@ type Handle = *mut c_void;
 
 /// The functions of the shim, in its words.
 struct Shim {
-    read: unsafe extern "C" fn(*const c_char, c_int, *mut Handle, *mut c_char, usize) -> c_int,
+    read: unsafe extern "C" fn(*const c_char, u64, *mut Handle, *mut c_char, usize) -> c_int,
     free: unsafe extern "C" fn(Handle),
     size: unsafe extern "C" fn(Handle, *mut c_int, *mut c_int, *mut c_int),
     bytes: unsafe extern "C" fn(Handle) -> *const u8,
@@ -54,14 +55,14 @@ pub(super) fn check() -> Result<(), String> {
 
 /// The pixels of a file.
 pub(super) fn read(path: &Path) -> Result<Decoded, String> {
-    let picture = Picture::open(path, true)?;
+    let picture = Picture::open(path, available_bytes().unwrap_or(u64::MAX).max(1))?;
     let ([width, height], is_encoded) = picture.size();
     Ok(Decoded { width, height, pixels: picture.pixels(), is_encoded })
 }
 
 /// The size of a picture and what its file says.
 pub(super) fn info(path: &Path) -> Result<([u32; 2], Metadata), String> {
-    let picture = Picture::open(path, false)?;
+    let picture = Picture::open(path, 0)?;
     Ok((picture.size().0, picture.metadata()))
 }
 
@@ -143,13 +144,14 @@ struct Picture {
 }
 
 impl Picture {
-    fn open(path: &Path, with_pixels: bool) -> Result<Picture, String> {
+    /// Without pixels if `most_bytes` is 0.
+    fn open(path: &Path, most_bytes: u64) -> Result<Picture, String> {
         let shim = shim()?;
         let path = c_path(path)?;
         let mut handle = std::ptr::null_mut();
         checked(|message, size| {
             // SAFETY: the path ends with zero, the handle is written before the call returns.
-            unsafe { (shim.read)(path.as_ptr(), with_pixels.into(), &raw mut handle, message, size) }
+            unsafe { (shim.read)(path.as_ptr(), most_bytes, &raw mut handle, message, size) }
         })?;
         Ok(Picture { shim, handle })
     }
@@ -189,7 +191,8 @@ impl Picture {
                 for (name, value) in value.lines().filter_map(|line| line.split_once(": ")) {
                     metadata.push(name, Value::Text(value.to_owned()));
                 }
-            } else {
+            } else if !(is_own && name == "IPTC:Caption") {
+                // What the JPEG writer repeats the description as.
                 metadata.push(name, Value::Text(value));
             }
         }

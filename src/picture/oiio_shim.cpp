@@ -92,8 +92,8 @@ struct PtPicture {
 
 void pt_free(PtPicture* picture) noexcept { delete picture; }
 
-// Reads the first subimage of a file, with its pixels if `pixels` is not 0.
-int pt_read(const char* path, int pixels, PtPicture** out, char* message, std::size_t size) noexcept {
+// Reads the first subimage of a file, with its pixels if `most_bytes` of memory, which are not 0, are enough for them.
+int pt_read(const char* path, std::uint64_t most_bytes, PtPicture** out, char* message, std::size_t size) noexcept {
     *out = nullptr;
     return guarded(message, size, [&](std::string& why) {
         ImageSpec config;
@@ -112,6 +112,14 @@ int pt_read(const char* path, int pixels, PtPicture** out, char* message, std::s
                   std::to_string(spec.height) + " pixels of " + std::to_string(spec.nchannels) + " channels";
             return false;
         }
+        bool is_byte = spec.format == TypeDesc::UINT8;
+        // All channels, the three that are kept, and the caller's copy of these.
+        std::uint64_t needed = spec.image_pixels() * (std::uint64_t(spec.nchannels) + 6) * (is_byte ? 1 : sizeof(float));
+        if (most_bytes != 0 && needed > most_bytes) {
+            why = "its " + std::to_string(spec.width) + " x " + std::to_string(spec.height) + " pixels take " +
+                  std::to_string(needed >> 20) + " MB of memory, and " + std::to_string(most_bytes >> 20) + " MB are free";
+            return false;
+        }
         auto picture = std::make_unique<PtPicture>();
         picture->width = spec.width;
         picture->height = spec.height;
@@ -119,8 +127,7 @@ int pt_read(const char* path, int pixels, PtPicture** out, char* message, std::s
         for (const auto& attribute : spec.extra_attribs) {
             picture->attributes.emplace_back(attribute.name().string(), attribute.get_string());
         }
-        bool is_byte = spec.format == TypeDesc::UINT8;
-        bool is_read = !pixels ||
+        bool is_read = most_bytes == 0 ||
                        (is_byte ? read_values(*input, spec, TypeDesc::UINT8, picture->bytes)
                                 : read_values(*input, spec, TypeDesc::FLOAT, picture->floats));
         if (!is_read) {

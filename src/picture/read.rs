@@ -2,6 +2,7 @@
 
 use super::{Format, Pixels, oiio, srgb_decode};
 use crate::error::{Error, Result};
+use crate::memory::available_bytes;
 use image::{DynamicImage, ImageDecoder, ImageReader, Limits};
 use std::fs::File;
 use std::io::{self, BufReader, Read};
@@ -69,7 +70,8 @@ const START: u64 = 64;
 
 fn decode(mut reader: ImageReader<BufReader<File>>) -> image::ImageResult<Decoded> {
     let mut limits = Limits::no_limits();
-    limits.max_alloc = Some(MOST_BYTES);
+    // Half of what is free: pixels of other types are copied.
+    limits.max_alloc = Some(available_bytes().map_or(MOST_BYTES, |bytes| MOST_BYTES.min(bytes / 2)));
     (limits.max_image_width, limits.max_image_height) = (Some(MOST_SIDE), Some(MOST_SIDE));
     reader.limits(limits.clone());
     let mut decoder = reader.into_decoder()?;

@@ -5,6 +5,7 @@ use crate::error::{Error, Result};
 use crate::integrator::Features;
 use crate::memory::available_bytes;
 use crate::scene::desc::{MeshDesc, SceneDesc, ShapeDesc};
+use crate::world::{environment_map_bytes, texture_bytes};
 use std::collections::HashSet;
 use std::sync::Arc;
 
@@ -35,12 +36,15 @@ impl Estimate {
             arrays += world_bytes(mesh);
             trees += mesh.triangles.len() as u64 * TREE_BYTES;
         }
+        let sky = desc.environment_map.as_ref().map_or(0, environment_map_bytes);
         let coarser = "coarser meshes take less, and files that several objects show are kept once";
         let parts = vec![
             ("the film", film_bytes(settings), "fewer pixels take less"),
             ("channels of features", features, "without --aov and --denoise there are none"),
             ("meshes", arrays, coarser),
             ("trees over the meshes", trees, coarser),
+            ("textures", textures(desc), "pictures of bytes and smaller ones take less"),
+            ("the environment map", sky, "a smaller picture takes less"),
             (
                 "the denoiser",
                 if denoise { pixels * DENOISER_BYTES } else { 0 },
@@ -79,6 +83,19 @@ impl Estimate {
             parts[0].2
         )))
     }
+}
+
+/// What the compiled scene takes for its textures, each once.
+fn textures(desc: &SceneDesc) -> u64 {
+    let materials = desc.objects.iter().flat_map(|object| {
+        let faces = object.faces.iter().map(|(_, material)| &**material);
+        std::iter::once(&object.material).chain(faces)
+    });
+    let pictures = materials.flat_map(|material| [&material.textures.color, &material.textures.coat_color]);
+    let mut seen = HashSet::new();
+    let once =
+        pictures.flatten().filter(|picture| seen.insert((Arc::as_ptr(&picture.picture), picture.is_encoded)));
+    once.map(texture_bytes).sum()
 }
 
 /// What the compiled scene takes of a mesh.

@@ -77,10 +77,9 @@ impl Pictures {
 }
 
 fn read(path: &Path) -> Result<(Decoded, Digest), String> {
-    let bytes = fs::read(path).map_err(|error| error.to_string())?;
-    let digest = Digest::of(&bytes);
-    drop(bytes);
+    // First, since what is no picture may be a file of any size.
     let picture = picture::read(path).map_err(|error| error.to_string())?;
+    let digest = Digest::of(&fs::read(path).map_err(|error| error.to_string())?);
     if !picture.is_sound() {
         return Err("it holds values that are negative or no numbers".to_owned());
     }

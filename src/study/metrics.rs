@@ -86,8 +86,12 @@ fn mean(values: impl ExactSizeIterator<Item = f64>) -> f64 {
     values.sum::<f64>() / count
 }
 
-/// The mean of the errors of all pixels but the worst 0.1 %; of few pixels all count.
+/// The mean of the errors of all pixels but the worst 0.1 %; of few pixels all count. Not finite if one of them is not,
+/// however few: such a pixel is a fault, not a bright sample.
 pub fn trimmed_mean(mut errors: Vec<f64>) -> f64 {
+    if !errors.iter().all(|error| error.is_finite()) {
+        return mean(errors.iter().copied());
+    }
     // As many as round the kept share down, by which numpy cuts an array.
     let kept = (errors.len() as f64 * (1.0 - TRIMMED_SHARE)) as usize;
     errors.sort_by(f64::total_cmp);

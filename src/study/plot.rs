@@ -6,8 +6,10 @@
 mod axis;
 pub mod chart;
 mod log_axis;
+mod mark;
 
 use self::log_axis::LogAxis;
+use self::mark::{Mark, Placed};
 use super::bench::{Row, Rung};
 use super::contender::Kind;
 use super::rounds::Spread;
@@ -15,10 +17,8 @@ use crate::accel::Precision;
 use crate::error::{Error, Result};
 use crate::render::AccelKind;
 use plotters::coord::Shift;
-use plotters::element::{Drawable, PointCollection};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
-use plotters_backend::{BackendCoord, DrawingErrorKind};
 use std::fmt::Display;
 use std::sync::Once;
 
@@ -182,7 +182,7 @@ fn draw_panel<DB: DrawingBackend>(
         // The range over the rounds, and a mark at the median.
         let ranges = points.iter().map(|&(x, cost)| PathElement::new([(x, cost.min), (x, cost.max)], color));
         chart.draw_series(ranges).map_err(failed)?;
-        let marks = points.iter().map(|&(x, cost)| Mark { kind, at: (x, cost.median) });
+        let marks = points.iter().map(|&(x, cost)| placed(kind, (x, cost.median)));
         chart.draw_series(marks).map_err(failed)?;
     }
     Ok(())
@@ -195,46 +195,21 @@ fn draw_legend<DB: DrawingBackend>(area: &DrawingArea<DB, Shift>, kinds: &[Kind]
         let (x, y) = (20 + 210 * (i % ROW) as i32, 22 + 30 * (i / ROW) as i32);
         let line = PathElement::new([(x, y), (x + 36, y)], color_of(kind).stroke_width(2));
         area.draw(&line).map_err(failed)?;
-        area.draw(&Mark { kind, at: (x + 18, y) }).map_err(failed)?;
+        area.draw(&placed(kind, (x + 18, y))).map_err(failed)?;
         let label = format!("{} {}", kind.accel_name(), kind.precision_name());
         write(area, &label, (x + 46, y - 9), 17, INK)?;
     }
     Ok(())
 }
 
-/// The mark of an accelerator at a precision: a disk for exact, a ring for robust, a triangle for fast.
-struct Mark<C> {
-    kind: Kind,
-    at: C,
-}
-
-impl<'m, C: 'm> PointCollection<'m, C> for &'m Mark<C> {
-    type Point = &'m C;
-    type IntoIter = std::iter::Once<&'m C>;
-
-    fn point_iter(self) -> Self::IntoIter {
-        std::iter::once(&self.at)
-    }
-}
-
-impl<C, DB: DrawingBackend> Drawable<DB> for Mark<C> {
-    fn draw<I: Iterator<Item = BackendCoord>>(
-        &self,
-        mut points: I,
-        backend: &mut DB,
-        _: (u32, u32),
-    ) -> std::result::Result<(), DrawingErrorKind<DB::ErrorType>> {
-        let Some((x, y)) = points.next() else { return Ok(()) };
-        let color = color_of(self.kind);
-        match self.kind.precision {
-            Precision::Exact => backend.draw_circle((x, y), 4, &color, true),
-            Precision::Robust => {
-                backend.draw_circle((x, y), 4, &WHITE, true)?;
-                backend.draw_circle((x, y), 4, &color.stroke_width(2), false)
-            }
-            Precision::Fast => backend.fill_polygon([(x, y - 6), (x + 5, y + 4), (x - 5, y + 4)], &color),
-        }
-    }
+/// The mark of an accelerator: a disk for exact, a ring for robust, a triangle for fast.
+fn placed<C>(kind: Kind, at: C) -> Placed<C> {
+    let mark = match kind.precision {
+        Precision::Exact => Mark::Disk,
+        Precision::Robust => Mark::Ring,
+        Precision::Fast => Mark::Triangle,
+    };
+    Placed { mark, color: color_of(kind), at }
 }
 
 /// Warm for Embree, cold for native; the faster the lighter.

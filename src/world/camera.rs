@@ -1,5 +1,6 @@
 //! The camera: a thin lens in front of a plane of square pixels.
 
+use super::cone::Cone;
 use crate::geometry::Ray;
 use crate::math::{DVec3, sin_cos_degrees};
 use crate::sampling::warp::square_to_disk;
@@ -67,6 +68,13 @@ impl Camera {
         let [a, b] = square_to_disk(lens());
         let offset = (self.right * a + self.up * b) * self.lens_radius;
         Ray::new(self.position + offset, (toward * self.focus_distance - offset).normalize())
+    }
+
+    /// The cone of a ray in this direction. Towards the edges of the picture a pixel is seen under a smaller angle.
+    #[inline]
+    pub fn cone(&self, direction: DVec3) -> Cone {
+        let cosine = direction.dot(self.forward);
+        Cone { width: 0.0, spread: Cone::CAMERA_PIXELS * self.pixel[0] * cosine * cosine }
     }
 }
 

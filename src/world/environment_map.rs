@@ -30,6 +30,13 @@ pub(super) struct EnvironmentMap {
 /// Two neighbouring columns or rows, and the second one's share.
 type Pair = (usize, usize, f64);
 
+/// The most bytes that an environment map takes at once beside its picture: its linear values, and either these once more
+/// or the probabilities.
+pub fn environment_map_bytes(desc: &EnvironmentMapDesc) -> u64 {
+    let pixels = u64::from(desc.picture.picture.width) * u64::from(desc.picture.picture.height);
+    pixels * 2 * size_of::<[f32; 3]>() as u64
+}
+
 impl EnvironmentMap {
     /// The picture of a scene; finite and not negative.
     pub(super) fn new(desc: &EnvironmentMapDesc, strength: f64) -> EnvironmentMap {

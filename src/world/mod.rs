@@ -7,7 +7,9 @@
 
 mod camera;
 mod compile;
+mod cone;
 mod environment_map;
+mod extent;
 mod guards;
 pub mod light;
 mod meshes;
@@ -20,9 +22,12 @@ mod texture;
 mod varied;
 
 pub use camera::Camera;
+pub use cone::Cone;
+pub use environment_map::environment_map_bytes;
 pub use requires::Requires;
 pub use sky::{Sky, SkyKind};
 pub(crate) use smooth_balls::{MOST_SMOOTH_BALLS, SmoothBall};
+pub use texture::texture_bytes;
 
 use crate::geometry::{Geometry, Hit, Ray};
 use crate::material::Material;
@@ -31,7 +36,7 @@ use crate::scene::desc::CameraDesc;
 use light::{Lights, Receiver};
 use shading::ShadingNormals;
 use std::sync::Arc;
-use varied::Varied;
+use varied::{Seen, Varied};
 
 /// A scene, ready to be rendered.
 #[derive(Clone, Debug)]
@@ -78,10 +83,12 @@ impl World {
         &self.materials[object as usize]
     }
 
-    /// The material at a hit, where it changes over its object; else it is [`World::material`].
+    /// The material at a hit, where it changes over its object; else it is [`World::material`]. Pictures are looked up by
+    /// the width of the [`Cone`] there.
     #[inline]
-    pub fn varied_material(&self, hit: &Hit, at: &Interaction) -> Option<Material> {
-        self.varied.material(hit, at.receiver.point.normal, self.material(hit.object))
+    pub fn varied_material(&self, hit: &Hit, at: &Interaction, width: f64) -> Option<Material> {
+        let seen = Seen { geometry: &self.geometry, hit, normal: at.receiver.point.normal, width };
+        self.varied.material(&seen, self.material(hit.object))
     }
 
     /// The radiance that an object emits.

@@ -33,7 +33,7 @@ pub struct Requires {
     pub lens: bool,
     /// Whether normals of mesh files are kept.
     pub shading_normals: bool,
-    /// Pictures that are colours of surfaces.
+    /// Pictures that are colours of surfaces: they are kept at all halves of their size, and paths carry cones.
     pub textures: usize,
     /// Whether anything refracts.
     pub refraction: bool,
@@ -104,7 +104,7 @@ impl fmt::Display for Requires {
         option(self.branches > 1, &format!("{} branches of a path", self.branches));
         option(self.lens, "a lens");
         option(self.shading_normals, "shading normals");
-        option(self.textures > 0, &counted(self.textures, "texture"));
+        option(self.textures > 0, &format!("{} with mip maps", counted(self.textures, "texture")));
         option(self.refraction, "refraction");
         write!(f, "{}", parts.join(", "))
     }

@@ -1,9 +1,10 @@
 //! Materials that change over their object: pictures as colours, and faces of a mesh with materials of their own.
 
 use super::compile::material_of;
+use super::extent::Extent;
 use super::meshes::Placement;
 use super::texture::Texture;
-use crate::geometry::Hit;
+use crate::geometry::{Geometry, Hit};
 use crate::material::Material;
 use crate::math::{DVec3, Rgb};
 use crate::picture::Decoded;
@@ -54,6 +55,18 @@ struct MeshCoordinates {
     texcoords: Vec<[f32; 2]>,
     /// Three indices for every triangle; `u32::MAX` where it has none.
     indices: Vec<[u32; 3]>,
+}
+
+/// What is seen of a surface.
+pub(super) struct Seen<'s> {
+    /// The shapes of the scene.
+    pub(super) geometry: &'s Geometry,
+    /// Where.
+    pub(super) hit: &'s Hit,
+    /// The outer normal of the surface there.
+    pub(super) normal: DVec3,
+    /// How wide, in world units.
+    pub(super) width: f64,
 }
 
 /// What is added, with what several objects use once.
@@ -145,15 +158,15 @@ impl Varied {
     }
 
     /// The material at a hit, if it varies: `material` with its colours multiplied by those of the pictures there.
-    /// `normal` is the outer normal of the surface.
     #[inline]
-    pub(super) fn material(&self, hit: &Hit, normal: DVec3, material: &Material) -> Option<Material> {
-        let varied = self.of_object.get(hit.object as usize)?.as_ref()?;
-        Some(self.vary(varied, hit, normal, *material))
+    pub(super) fn material(&self, seen: &Seen<'_>, material: &Material) -> Option<Material> {
+        let varied = self.of_object.get(seen.hit.object as usize)?.as_ref()?;
+        Some(self.vary(varied, seen, *material))
     }
 
     #[inline(never)]
-    fn vary(&self, varied: &VariedObject, hit: &Hit, normal: DVec3, first: Material) -> Material {
+    fn vary(&self, varied: &VariedObject, seen: &Seen<'_>, first: Material) -> Material {
+        let Seen { hit, normal, .. } = *seen;
         let faces = varied.faces.partition_point(|(start, _, _)| *start <= hit.part);
         let (mut material, pictures) = match faces.checked_sub(1).map(|face| &varied.faces[face]) {
             Some((_, material, pictures)) => (*material, *pictures),
@@ -167,8 +180,10 @@ impl Varied {
             Mapping::Face => [hit.u, hit.v],
             Mapping::Mesh(index) => self.coordinates[index as usize].at(hit),
         };
-        let color =
-            |texture: Option<u32>| texture.map_or(Rgb::ONE, |index| self.textures[index as usize].at(place));
+        let extent = self.extent(varied.mapping, seen);
+        let color = |texture: Option<u32>| {
+            texture.map_or(Rgb::ONE, |index| self.textures[index as usize].at(place, &extent))
+        };
         match &mut material {
             Material::Diffuse(diffuse) => diffuse.color *= color(pictures.color),
             Material::Reflective(reflective) => reflective.color *= color(pictures.color),
@@ -180,6 +195,18 @@ impl Varied {
         }
         material
     }
+
+    /// How much of a picture is seen.
+    fn extent(&self, mapping: Mapping, &Seen { geometry, hit, normal, width }: &Seen<'_>) -> Extent {
+        match mapping {
+            _ if width == 0.0 => Extent::POINT,
+            Mapping::Ball | Mapping::Face => Extent::on_solid(geometry, hit, normal, width),
+            Mapping::Mesh(index) => match self.coordinates[index as usize].steps(hit) {
+                Some(steps) => Extent::on_triangle(geometry, hit, steps, width),
+                None => Extent::POINT,
+            },
+        }
+    }
 }
 
 /// From 0 at -z to 1 at +z, evenly in the angle.
@@ -188,14 +215,21 @@ fn height(normal: DVec3) -> f64 {
 }
 
 impl MeshCoordinates {
+    /// Those of the corners of a triangle; `None` where the file has none.
+    fn corners(&self, hit: &Hit) -> Option<[[f64; 2]; 3]> {
+        let indices = self.indices.get(hit.part as usize).filter(|indices| !indices.contains(&u32::MAX))?;
+        Some(indices.map(|index| self.texcoords[index as usize].map(f64::from)))
+    }
+
+    /// By how much they change from the first corner to the second and the third.
+    fn steps(&self, hit: &Hit) -> Option<[[f64; 2]; 2]> {
+        let [a, b, c] = self.corners(hit)?;
+        Some([b, c].map(|corner| [corner[0] - a[0], corner[1] - a[1]]))
+    }
+
     /// The texture coordinates of a hit; the lower left corner where the file has none.
     fn at(&self, hit: &Hit) -> [f64; 2] {
-        let Some(indices) =
-            self.indices.get(hit.part as usize).filter(|indices| !indices.contains(&u32::MAX))
-        else {
-            return [0.0; 2];
-        };
-        let [a, b, c] = indices.map(|index| self.texcoords[index as usize].map(f64::from));
+        let Some([a, b, c]) = self.corners(hit) else { return [0.0; 2] };
         [0, 1].map(|i| a[i] * (1.0 - hit.u - hit.v) + b[i] * hit.u + c[i] * hit.v)
     }
 }

@@ -4,8 +4,12 @@ use super::room::room;
 use super::{kinds, picture, rel_mse, small};
 use crate::support::build::edit_lengths;
 use pathtracer::math::DVec3;
+use pathtracer::picture::{Decoded, Pixels};
 use pathtracer::render::{Settings, Unwatched, render};
+use pathtracer::scene::desc::{MeshDesc, PictureDesc, SceneDesc, ShapeDesc};
 use pathtracer::world::World;
+use std::collections::HashMap;
+use std::sync::Arc;
 
 /// Powers of two that leave every number of the room in range.
 const EXPONENTS: [i32; 12] = [-100, -40, -30, -20, -10, -1, 1, 10, 20, 30, 40, 100];
@@ -19,6 +23,46 @@ fn lengths_times_a_power_of_two_change_no_bit() {
             let mut desc = room(1.0);
             let factor = libm::ldexp(1.0, exponent);
             edit_lengths(&mut desc, |p| p * factor, |l| l * factor);
+            assert!(picture(&desc, &settings) == expected, "{accel:?} 2^{exponent}");
+        }
+    }
+}
+
+/// The room with a picture on a wall, a box, a ball, a mesh and the instances of another.
+fn textured_room(unit: f64) -> SceneDesc {
+    let mut desc = room(unit);
+    let pixels = (0..3 * 32 * 20u32).map(|i| (i.wrapping_mul(2_654_435_761) >> 8) as f32 / 16_777_216.0);
+    let picture =
+        Decoded { width: 32, height: 20, pixels: Pixels::Floats(pixels.collect()), is_encoded: false };
+    let picture = PictureDesc { file: "a.exr".into(), picture: Arc::new(picture), is_encoded: false };
+    let mut meshes: HashMap<*const MeshDesc, Arc<MeshDesc>> = HashMap::new();
+    for object in &mut desc.objects {
+        object.material.textures.color = Some(picture.clone());
+        if let ShapeDesc::TriangleMesh { mesh, .. } = &mut object.shape {
+            let shared = meshes.entry(Arc::as_ptr(mesh)).or_insert_with(|| {
+                let texcoords =
+                    mesh.positions.iter().map(|p| [1.5, 2.25].map(|k: f32| k * (p[0] + 0.3 * p[2]) as f32));
+                let texcoords = texcoords.enumerate().map(|(i, [u, v])| [u, v + i as f32]).collect();
+                let texcoord_indices = mesh.triangles.clone();
+                Arc::new(MeshDesc { texcoords, texcoord_indices, ..(**mesh).clone() })
+            });
+            *mesh = shared.clone();
+        }
+    }
+    desc
+}
+
+#[test]
+fn textures_do_not_know_the_unit_of_length_or_the_accelerator() {
+    let settings = small(32, 24, 8, 6);
+    let expected = picture(&textured_room(1.0), &settings);
+    assert!(expected != picture(&room(1.0), &settings));
+    for accel in kinds() {
+        let settings = Settings { accel, ..settings.clone() };
+        for exponent in EXPONENTS.into_iter().chain([-HELD, HELD]) {
+            let mut desc = textured_room(1.0);
+            let factor = libm::ldexp(1.0, exponent);
+            edit(&mut desc, |p| p * factor, |l| l * factor);
             assert!(picture(&desc, &settings) == expected, "{accel:?} 2^{exponent}");
         }
     }

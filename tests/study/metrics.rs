@@ -1,5 +1,8 @@
 //! Distances between pictures: known answers.
 
+use crate::support::random::Random;
+use nv_flip::{DEFAULT_PIXELS_PER_DEGREE, FlipImageRgb8};
+use pathtracer::picture::byte_values;
 use pathtracer::study::metrics::{Pair, trimmed_mean};
 
 fn pair<'p>(picture: &'p [f32], reference: &'p [f32], width: usize) -> Pair<'p> {
@@ -27,6 +30,17 @@ fn the_trimmed_error_leaves_out_one_pixel_in_a_thousand() {
     assert!((pair.trimmed_rel_mse() - 100.0).abs() < 1e-9, "{}", pair.trimmed_rel_mse());
     assert!(pair.rel_mse() > 1000.0);
     assert_eq!(trimmed_mean(vec![7.0]), 7.0);
+}
+
+#[test]
+fn a_pixel_that_is_no_number_is_not_left_out() {
+    let reference = vec![0.5f32; 6000];
+    for fault in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+        let mut picture = reference.clone();
+        picture[301] = fault;
+        assert!(!pair(&picture, &reference, 50).trimmed_rel_mse().is_finite(), "{fault}");
+        assert!(!pair(&reference, &picture, 50).trimmed_rel_mse().is_finite(), "{fault}");
+    }
 }
 
 #[test]
@@ -80,6 +94,38 @@ fn flip_agrees_with_its_authors_program() {
         [(0, 0, 0.139_194_43), (12, 7, 0.834_195_6), (31, 19, 0.319_620_82), (16, 10, 0.349_181_18)]
     {
         assert!((f64::from(map[y * 32 + x]) - value).abs() < 1e-3, "{x} {y}: {}", map[y * 32 + x]);
+    }
+}
+
+/// Smooth colours with noise, of bytes.
+fn bytes(seed: u64, (width, height): (u32, u32)) -> Vec<u8> {
+    let mut random = Random::new(seed);
+    let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+    let values = pixels.flat_map(|(x, y)| {
+        let wave = |k: f64| 120.0 + 80.0 * (k * f64::from(x) * 0.07 + f64::from(y) * 0.05).sin();
+        [wave(1.0), wave(1.7), wave(-0.6)]
+    });
+    values.map(|value| (value + random.between(-30.0, 30.0)).clamp(0.0, 255.0) as u8).collect()
+}
+
+#[test]
+fn flip_agrees_with_its_authors_library_on_every_pixel_of_bytes() {
+    let table = byte_values(true);
+    for (seed, size) in [(1, (96, 64)), (2, (61, 45)), (3, (300, 40))] {
+        let pictures = [bytes(seed, size), bytes(seed + 10, size)];
+        let [ours, other] = pictures
+            .each_ref()
+            .map(|bytes| bytes.iter().map(|&byte| table[usize::from(byte)]).collect::<Vec<f32>>());
+        let [picture, reference] =
+            pictures.each_ref().map(|bytes| FlipImageRgb8::with_data(size.0, size.1, bytes));
+        let expected = nv_flip::flip(reference, picture, DEFAULT_PIXELS_PER_DEGREE).to_vec();
+        let map = pair(&ours, &other, size.0 as usize).flip();
+        let mean = |map: &[f32]| map.iter().map(|&x| f64::from(x)).sum::<f64>() / map.len() as f64;
+        println!("means {} and {}", mean(&map), mean(&expected));
+        // Theirs is in f32, as above.
+        assert!((mean(&map) - mean(&expected)).abs() < 1e-4, "{} {}", mean(&map), mean(&expected));
+        let farthest = map.iter().zip(&expected).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
+        assert!(farthest < 1e-3, "{farthest}");
     }
 }
 

@@ -1,9 +1,8 @@
 //! `pathtracer bench [SCENE | OBJ]`, as it was typed.
 
-use super::values::{ISAS, Ladder, amount, choice, ladder, whole};
-use crate::accel::Isa;
+use super::shared::{Machine, Sinks};
+use super::values::{Ladder, amount, ladder, whole};
 use crate::error::Error;
-use crate::render::MAX_THREADS;
 use crate::study::bench::Options;
 use crate::study::meshes::Family;
 use crate::study::scaling;
@@ -33,12 +32,8 @@ pub(in crate::cli) struct BenchArguments {
     /// How often everything is timed [default: 5]
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole(1000))]
     rounds: Option<u64>,
-    /// Threads of the measurements on all threads [default: one a core]
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole(MAX_THREADS as u64))]
-    threads: Option<u64>,
-    /// Most instructions to use [default: the machine's best]
-    #[arg(long, value_name = "NAME", value_parser = choice(&ISAS))]
-    isa: Option<Isa>,
+    #[command(flatten)]
+    machine: Machine,
     /// Seed of meshes and rays
     #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 0)]
     seed: u64,
@@ -55,18 +50,11 @@ pub(in crate::cli) struct BenchArguments {
     /// A glance within seconds: 1k..10k triangles, few rays, 2 rounds
     #[arg(long)]
     quick: bool,
-    /// Write all figures as CSV
-    #[arg(long, value_name = "FILE")]
-    csv: Option<PathBuf>,
     /// Draw how the costs grow: .svg or .png; may be given more than once
     #[arg(long, value_name = "FILE")]
     plot: Vec<PathBuf>,
-    /// Print events as JSON lines on stdout instead of tables
-    #[arg(long)]
-    json: bool,
-    /// Do not say what is being done
-    #[arg(long, short)]
-    quiet: bool,
+    #[command(flatten)]
+    sinks: Sinks,
 }
 
 /// What is measured.
@@ -100,8 +88,8 @@ impl BenchArguments {
             usize::try_from(value.unwrap_or(if self.quick { quick } else { default }))
         };
         let options = Options {
-            isa: self.isa,
-            threads: super::threads(self.threads)?,
+            isa: self.machine.isa,
+            threads: self.machine.threads()?,
             rays: or(self.rays, 2000, 50_000)?,
             rounds: or(self.rounds, 2, 5)?,
             seed: self.seed,
@@ -114,8 +102,8 @@ impl BenchArguments {
         } else {
             subject
         };
-        let BenchArguments { csv, plot: plots, json, quiet, .. } = self;
-        Ok(BenchJob { subject, options, csv, plots, json, quiet })
+        let Sinks { csv, json, quiet } = self.sinks;
+        Ok(BenchJob { subject, options, csv, plots: self.plot, json, quiet })
     }
 
     fn subject(&self) -> Result<Subject, Error> {

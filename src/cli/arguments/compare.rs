@@ -1,8 +1,9 @@
 //! `pathtracer compare SCENE`, as it was typed.
 
-use super::values::{ISAS, PRECISIONS, amount, choice, size, whole};
-use crate::accel::{Isa, Precision};
-use crate::render::{MAX_BOUNCES, MAX_THREADS};
+use super::shared::{Machine, Sinks};
+use super::values::{PRECISIONS, amount, choice, size, whole};
+use crate::accel::Precision;
+use crate::render::MAX_BOUNCES;
 use crate::study::compare::Options;
 use crate::study::record::Recording;
 use std::path::PathBuf;
@@ -25,12 +26,8 @@ pub(in crate::cli) struct CompareArguments {
     /// How hits of triangles are found, by both [default: exact]
     #[arg(long, value_name = "NAME", value_parser = choice(&PRECISIONS))]
     precision: Option<Precision>,
-    /// Most instructions to use [default: the machine's best]
-    #[arg(long, value_name = "NAME", value_parser = choice(&ISAS))]
-    isa: Option<Isa>,
-    /// Threads of the measurements on all threads [default: one a core]
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole(MAX_THREADS as u64))]
-    threads: Option<u64>,
+    #[command(flatten)]
+    machine: Machine,
     /// Size of the picture whose paths are recorded, and of the pictures that are compared
     #[arg(long, value_name = "WxH", default_value = "320x180", value_parser = size(MOST_SIDE))]
     size: [u32; 2],
@@ -52,15 +49,8 @@ pub(in crate::cli) struct CompareArguments {
     /// How many of the worst differing rays of a kind to print
     #[arg(long, value_name = "N", default_value_t = 3)]
     worst: usize,
-    /// Write all figures as CSV
-    #[arg(long, value_name = "FILE")]
-    csv: Option<PathBuf>,
-    /// Print events as JSON lines on stdout instead of tables
-    #[arg(long)]
-    json: bool,
-    /// Do not say what is being done
-    #[arg(long, short)]
-    quiet: bool,
+    #[command(flatten)]
+    sinks: Sinks,
 }
 
 /// A comparison as it was meant.
@@ -85,13 +75,13 @@ impl CompareArguments {
         };
         let options = Options {
             precision: self.precision.unwrap_or_default(),
-            isa: self.isa,
-            threads: super::threads(self.threads)?,
+            isa: self.machine.isa,
+            threads: self.machine.threads()?,
             recording,
             rounds: usize::try_from(self.rounds)?,
             worst: self.worst,
         };
-        let CompareArguments { scene, csv, json, quiet, .. } = self;
-        Ok(CompareJob { scene, options, csv, json, quiet })
+        let Sinks { csv, json, quiet } = self.sinks;
+        Ok(CompareJob { scene: self.scene, options, csv, json, quiet })
     }
 }

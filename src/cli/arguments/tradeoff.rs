@@ -1,8 +1,9 @@
 //! `pathtracer tradeoff SCENE`, as it was typed.
 
-use super::values::{ACCELS, ISAS, PRECISIONS, SAMPLERS, SWITCH, amount, choice, positive, size, whole};
-use crate::accel::{Isa, Precision};
-use crate::render::{AccelKind, MAX_BOUNCES, MAX_SAMPLES, MAX_THREADS};
+use super::shared::{Machine, Sinks};
+use super::values::{ACCELS, PRECISIONS, SAMPLERS, SWITCH, amount, choice, positive, size, whole};
+use crate::accel::Precision;
+use crate::render::{AccelKind, MAX_BOUNCES, MAX_SAMPLES};
 use crate::sampling::SamplerKind;
 use crate::study::tradeoff::grid::{Frame, Grid};
 use crate::world::Requires;
@@ -72,21 +73,14 @@ pub(in crate::cli) struct TradeoffArguments {
     /// Rays that look for leaks at seams, at corners and inside of triangles each [default: 1M]
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = amount(100_000_000))]
     leak_rays: Option<u64>,
-    /// Threads of a render [default: one a core]
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole(MAX_THREADS as u64))]
-    threads: Option<u64>,
-    /// Most instructions to use [default: the machine's best]
-    #[arg(long, value_name = "NAME", value_parser = choice(&ISAS))]
-    isa: Option<Isa>,
+    #[command(flatten)]
+    machine: Machine,
     /// The first seed
     #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 0, value_parser = clap::value_parser!(u64).range(..u64::MAX - 1000))]
     seed: u64,
     /// A glance within seconds: 64x36 pixels, 8 seeds, 1 to 16 samples, 20, 5 and 2 bounces, few rays
     #[arg(long)]
     quick: bool,
-    /// Write all figures as CSV
-    #[arg(long, value_name = "FILE")]
-    csv: Option<PathBuf>,
     /// Draw error against time, energy against bounces, cost of a ray against leaks: .svg or .png; may be given more than
     /// once
     #[arg(long, value_name = "FILE")]
@@ -94,12 +88,8 @@ pub(in crate::cli) struct TradeoffArguments {
     /// Write everything, with pictures to compare, as one page that needs no network
     #[arg(long, value_name = "FILE.html")]
     report: Option<PathBuf>,
-    /// Print events as JSON lines on stdout instead of tables
-    #[arg(long)]
-    json: bool,
-    /// Do not say what is being done
-    #[arg(long, short)]
-    quiet: bool,
+    #[command(flatten)]
+    sinks: Sinks,
 }
 
 /// A measurement as it was meant, but for what depends on the scene.
@@ -154,8 +144,10 @@ impl TradeoffArguments {
             denoise: if self.denoise { vec![false, true] } else { vec![false] },
             crossed: self.all,
         };
+        let Sinks { csv, json, quiet } = self.sinks;
+        let (threads, isa) = (self.machine.threads()?, self.machine.isa);
         Ok(TradeoffJob {
-            frame: Frame { width, height, threads: super::threads(self.threads)?, isa: self.isa },
+            frame: Frame { width, height, threads, isa },
             seeds: or(self.seeds, 8, 16),
             first_seed: self.seed,
             target: self.target,
@@ -164,11 +156,11 @@ impl TradeoffArguments {
             grid,
             scene: self.scene,
             reference: self.reference,
-            csv: self.csv,
+            csv,
             plots: self.plot,
             report: self.report,
-            json: self.json,
-            quiet: self.quiet,
+            json,
+            quiet,
         })
     }
 }

@@ -2,13 +2,13 @@
 
 use super::axis::Axis;
 pub use super::axis::Scale;
+pub use super::mark::Mark;
+use super::mark::Placed;
 use super::{FAINT, GREY, INK, failed, font, register_font, write};
 use crate::error::Result;
 use plotters::coord::Shift;
 use plotters::coord::ranged1d::Ranged;
-use plotters::element::{Drawable, PointCollection};
 use plotters::prelude::*;
-use plotters_backend::{BackendCoord, DrawingErrorKind};
 
 /// Pixels of a chart, of the part right of it that its legend takes, and of the heading of a sheet.
 const CHART: (u32, u32) = (1000, 460);
@@ -82,28 +82,6 @@ pub struct Guide {
     pub power: f64,
     /// A point of it.
     pub through: [f64; 2],
-}
-
-/// The shapes of marks.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Mark {
-    /// Nothing.
-    None,
-    /// A filled circle.
-    Disk,
-    /// A circle.
-    Ring,
-    /// A triangle.
-    Triangle,
-    /// A square.
-    Square,
-    /// A square on its tip.
-    Diamond,
-}
-
-impl Mark {
-    /// Those that can be seen.
-    pub const SHAPES: [Mark; 5] = [Mark::Disk, Mark::Ring, Mark::Triangle, Mark::Square, Mark::Diamond];
 }
 
 impl Sheet {
@@ -271,43 +249,4 @@ impl Chart {
 
 fn rgb([r, g, b]: [u8; 3]) -> RGBColor {
     RGBColor(r, g, b)
-}
-
-/// A mark at its place.
-struct Placed<C> {
-    mark: Mark,
-    color: RGBColor,
-    at: C,
-}
-
-impl<'m, C: 'm> PointCollection<'m, C> for &'m Placed<C> {
-    type Point = &'m C;
-    type IntoIter = std::iter::Once<&'m C>;
-
-    fn point_iter(self) -> Self::IntoIter {
-        std::iter::once(&self.at)
-    }
-}
-
-impl<C, DB: DrawingBackend> Drawable<DB> for Placed<C> {
-    fn draw<I: Iterator<Item = BackendCoord>>(
-        &self,
-        mut points: I,
-        backend: &mut DB,
-        _: (u32, u32),
-    ) -> std::result::Result<(), DrawingErrorKind<DB::ErrorType>> {
-        let Some((x, y)) = points.next() else { return Ok(()) };
-        let color = &self.color;
-        match self.mark {
-            Mark::None => Ok(()),
-            Mark::Disk => backend.draw_circle((x, y), 4, color, true),
-            Mark::Ring => {
-                backend.draw_circle((x, y), 4, &WHITE, true)?;
-                backend.draw_circle((x, y), 4, &color.stroke_width(2), false)
-            }
-            Mark::Triangle => backend.fill_polygon([(x, y - 6), (x + 5, y + 4), (x - 5, y + 4)], color),
-            Mark::Square => backend.draw_rect((x - 4, y - 4), (x + 4, y + 4), color, true),
-            Mark::Diamond => backend.fill_polygon([(x, y - 6), (x + 6, y), (x, y + 6), (x - 6, y)], color),
-        }
-    }
 }
