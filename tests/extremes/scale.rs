@@ -62,7 +62,7 @@ fn textures_do_not_know_the_unit_of_length_or_the_accelerator() {
         for exponent in EXPONENTS.into_iter().chain([-HELD, HELD]) {
             let mut desc = textured_room(1.0);
             let factor = libm::ldexp(1.0, exponent);
-            edit(&mut desc, |p| p * factor, |l| l * factor);
+            edit_lengths(&mut desc, |p| p * factor, |l| l * factor);
             assert!(picture(&desc, &settings) == expected, "{accel:?} 2^{exponent}");
         }
     }
