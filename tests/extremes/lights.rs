@@ -2,7 +2,6 @@
 
 use crate::support::build::*;
 use pathtracer::math::DVec3;
-use pathtracer::scene::desc::ShapeDesc;
 use std::f64::consts::PI;
 
 const WIDTH: f64 = 1e-3;

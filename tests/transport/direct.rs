@@ -2,7 +2,7 @@
 
 use crate::support::build::*;
 use pathtracer::math::DVec3;
-use pathtracer::scene::desc::{EnvironmentDesc, ShapeDesc};
+use pathtracer::scene::desc::EnvironmentDesc;
 use std::f64::consts::PI;
 
 /// Reflected radiance of a white Lambertian patch with normal +z at the origin, from a polygon above the horizon that

@@ -2,7 +2,7 @@
 
 use crate::support::build::*;
 use pathtracer::math::DVec3;
-use pathtracer::scene::desc::{ApertureDesc, MaterialKind, SceneDesc, ShapeDesc};
+use pathtracer::scene::desc::{ApertureDesc, MaterialKind, SceneDesc};
 
 const MEASURE: Measure = Measure { samples: 4000, bounces: 6, light_sampling: true };
 
