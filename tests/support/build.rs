@@ -99,7 +99,11 @@ pub(crate) fn lit_floor(light: ShapeDesc, radiance: f64) -> SceneDesc {
 }
 
 /// Changes every position and every length.
-pub(crate) fn edit_lengths(desc: &mut SceneDesc, point: impl Fn(DVec3) -> DVec3, length: impl Fn(f64) -> f64) {
+pub(crate) fn edit_lengths(
+    desc: &mut SceneDesc,
+    point: impl Fn(DVec3) -> DVec3,
+    length: impl Fn(f64) -> f64,
+) {
     desc.camera.position = point(desc.camera.position);
     desc.camera.looking_at = point(desc.camera.looking_at);
     desc.camera.focus_distance = length(desc.camera.focus_distance);
