@@ -159,7 +159,10 @@ fn shares_of_the_light_of_a_part_are_those_of_its_own_pixels() {
         });
         // All numbers are powers of two and small multiples of them, but for the limit and the means: some roundings.
         let near = |share: Option<f64>, expected: f64| {
-            assert!(share.is_some_and(|share| (share - expected).abs() < 20.0 * EPSILON), "{region}: {share:?}");
+            assert!(
+                share.is_some_and(|share| (share - expected).abs() < 20.0 * EPSILON),
+                "{region}: {share:?}"
+            );
         };
         near(rendered.clamp_bias(), 0.75);
         // As much as the last segments brought is lost beyond them: a limit beside the limit that was found.

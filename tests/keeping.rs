@@ -91,9 +91,9 @@ fn every_file_under_way_has_a_temporary_name_of_its_own() {
 #[test]
 fn the_pixels_of_a_region_are_numbered_in_their_order() {
     for (width, height) in [(1, 1), (37, 23), (16, 32), (100, 5), (70, 50)] {
-        let parts = [1, 2, 3, 5, 7, 11, 100].into_iter().flat_map(|count| {
-            (0..count).map(move |index| Region::Part { index, count })
-        });
+        let parts = [1, 2, 3, 5, 7, 11, 100]
+            .into_iter()
+            .flat_map(|count| (0..count).map(move |index| Region::Part { index, count }));
         let crops = [(0, 0, 1, 1), (3, 2, 37, 23), (17, 4, 18, 5), (16, 0, 70, 48)];
         let crops = crops.map(|(left, top, right, bottom)| Region::Crop { left, top, right, bottom });
         let regions = parts.chain(crops).chain([Region::All]);

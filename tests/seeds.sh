@@ -15,10 +15,12 @@ esac | while read -r file; do cp "$file" "$folder/$(basename "$(dirname "$file")
 if [ "$target" = film ]; then
     work=$(mktemp -d)
     scene=scenes/bigBalls.yaml
-    $program $scene 20 18 40 2 "$work/a.film" --part 0/2 --quiet
-    $program $scene 20 18 40 2 "$work/b.film" --chunks 1..2 --aov depth --quiet
-    $program $scene 20 18 20 2 "$work/c.png" --checkpoint "$work/c.film" --noise 0.1 --quiet
-    $program $scene 20 18 20 2 "$work/d.png" --checkpoint "$work/d.film" --scramble-length 2 --quiet
+    $program $scene 18 2 40 2 "$work/a.film" --part 0/2 --quiet
+    $program $scene 5 3 40 2 "$work/b.film" --chunks 1..2 --aov depth --quiet
+    $program $scene 18 3 20 2 "$work/c.png" --checkpoint "$work/c.film" --noise 0.1 --quiet
+    $program $scene 5 3 20 2 "$work/d.png" --checkpoint "$work/d.film" --scramble-length 2 --quiet
+    $program $scene 18 2 100 2 "$work/e.film" --part 1/2 --noise 0.5 --quiet
+    $program $scene 3 2 1 1 "$work/f.film" --part 0/1 --error-estimate off --quiet
     for file in "$work"/*.film; do
         # The target puts magic, length and checksum there itself: one byte, the header, a line end, the sums.
         python3 - "$file" "$folder/$(basename "$file")" <<'EOF'

@@ -4,7 +4,9 @@ use pathtracer::accel::brute_force::BruteForce;
 use pathtracer::accel::bvh::Bvh;
 use pathtracer::accel::embree::Embree;
 use pathtracer::accel::{Accelerator, BuildOptions};
-use pathtracer::geometry::{Ball, Cuboid, Geometry, Hit, MeshPart, PrimitiveId, Ray, Rectangle, Shape, Solid};
+use pathtracer::geometry::{
+    Ball, Cuboid, Geometry, Hit, MeshPart, PrimitiveId, Ray, Rectangle, Shape, Solid,
+};
 use pathtracer::math::{DMat3, DVec3};
 use std::path::Path;
 
@@ -51,12 +53,17 @@ impl Input<'_> {
             0 => Shape::Ball(Ball { center, radius: self.size()? }),
             1 => {
                 let half = DVec3::new(self.size()?, self.size()?, self.size()?);
-                let rotation = DMat3::from_rotation_z(self.number()?) * DMat3::from_rotation_x(self.number()?);
+                let rotation =
+                    DMat3::from_rotation_z(self.number()?) * DMat3::from_rotation_x(self.number()?);
                 Shape::Cuboid(Cuboid { center, half, rotation })
             }
             _ => {
                 let turn = DMat3::from_rotation_y(self.number()?);
-                Shape::Rectangle(Rectangle::new(center, turn.x_axis * self.size()?, turn.y_axis * self.size()?))
+                Shape::Rectangle(Rectangle::new(
+                    center,
+                    turn.x_axis * self.size()?,
+                    turn.y_axis * self.size()?,
+                ))
             }
         })
     }

@@ -87,9 +87,8 @@ impl Frame {
 
     /// The column and the row of the pixel with a number.
     pub fn place(&self, number: usize) -> (u32, u32) {
-        let at = |number: usize, width: u32| {
-            ((number % width as usize) as u32, (number / width as usize) as u32)
-        };
+        let at =
+            |number: usize, width: u32| ((number % width as usize) as u32, (number / width as usize) as u32);
         match self.region {
             Region::All => at(number, self.width),
             Region::Crop { left, top, right, .. } => {
@@ -138,7 +137,8 @@ impl Frame {
         }
         let first = first as u32;
         let own = (columns - 1 - first) / count + 1;
-        let missing = if (columns - 1 - first).is_multiple_of(count) { columns * BLOCK - self.width } else { 0 };
+        let missing =
+            if (columns - 1 - first).is_multiple_of(count) { columns * BLOCK - self.width } else { 0 };
         Band { first, count: own, width: (own * BLOCK - missing) as usize }
     }
 }

@@ -101,7 +101,9 @@ fn a_part_that_is_there_is_told_as_done() {
     assert!(again.stdout.lines().next().is_some_and(|line| line.contains("\"start\"")), "{}", again.stdout);
     let found = last(again);
     assert_eq!((&made["event"], &found["event"]), (&"done".into(), &"done".into()));
-    for name in ["samples_taken", "all_samples", "noise_missed", "rays", "cut_light", "clamped_samples", "clamp_bias"] {
+    for name in
+        ["samples_taken", "all_samples", "noise_missed", "rays", "cut_light", "clamped_samples", "clamp_bias"]
+    {
         assert_eq!(made[name], found[name], "{name}");
     }
 }
