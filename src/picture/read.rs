@@ -75,6 +75,8 @@ fn decode(mut reader: ImageReader<BufReader<File>>) -> image::ImageResult<Decode
     (limits.max_image_width, limits.max_image_height) = (Some(MOST_SIDE), Some(MOST_SIDE));
     reader.limits(limits.clone());
     let mut decoder = reader.into_decoder()?;
+    // The pixels, which the decoder itself does not count.
+    limits.reserve(decoder.total_bytes())?;
     decoder.set_limits(limits)?;
     let image = DynamicImage::from_decoder(decoder)?;
     let (width, height) = (image.width(), image.height());

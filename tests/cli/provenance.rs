@@ -31,6 +31,31 @@ fn the_command_that_info_prints_makes_the_same_file_again() {
 }
 
 #[test]
+fn a_picture_of_a_textured_scene_is_made_again_until_its_texture_changes() {
+    for (extension, options) in [("png", ""), ("exr", "--aov albedo")] {
+        let folder = Folder::new();
+        let wood = |value: u8| {
+            image::RgbImage::from_fn(16, 12, |x, y| image::Rgb([value, x as u8 * 9, y as u8 * 9]))
+        };
+        wood(200).save(folder.path("wood.png")).expect("a picture");
+        let color = BALL.lines().find(|line| line.trim_start().starts_with("Color:")).expect("a colour");
+        folder.write("ball.yaml", &BALL.replace(color, "        Color: { Image: wood.png }"));
+        let name = format!("a.{extension}");
+        folder.run(&format!("{RENDER} {name} {options}")).succeeds();
+        let before = folder.read(&name);
+        folder.run(&command(&folder, &name)).succeeds();
+        assert!(folder.read(&name) == before, "{extension}");
+        wood(90).save(folder.path("wood.png")).expect("a picture");
+        folder.run(&format!("{RENDER} b.{extension}")).succeeds();
+        let hash = |name: &str| {
+            let stdout = folder.run(&format!("info {name}")).stdout;
+            stdout.lines().find(|line| line.contains("sceneHash")).expect("a hash").to_owned()
+        };
+        assert_ne!(hash(&name), hash(&format!("b.{extension}")));
+    }
+}
+
+#[test]
 fn the_command_tells_every_setting_that_changes_pixels() {
     let folder = Folder::new();
     folder
