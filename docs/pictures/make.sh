@@ -17,7 +17,7 @@ sample() {
 # key NAME: a picture of the scene on standard input.
 key() {
     cat > "$work/$1.yaml"
-    "$program" "$work/$1.yaml" 240 "${2:-150}" 96 12 "key_$1.jpg" --quiet --error-estimate off
+    "$program" "$work/$1.yaml" 240 "${2:-150}" 48 12 "key_$1.jpg" --quiet --error-estimate off
 }
 
 # camera [KEY: VALUE]...: looks along +x at the origin's surroundings; later keys replace earlier ones.
@@ -65,10 +65,10 @@ gallery() {
     sample bigBalls 480 270 256
     sample glassBalls 480 270 256
     sample legacyBalls 400 320 256
-    sample mirrorRoom 480 270 384
-    sample objectScene 400 400 256
-    sample cornellBox 320 320 256
-    sample gallery 480 320 384
+    sample mirrorRoom 400 225 128
+    sample objectScene 360 360 128
+    sample cornellBox 280 280 128
+    sample gallery 420 280 160
 }
 
 keys() {

@@ -119,7 +119,7 @@ fn a_camera_that_is_turned_is_noticed() {
 fn make_statistics() {
     let mut text = String::from("scene,block,r,g,b,error of r,error of g,error of b\n");
     for name in NAMES {
-        let blocks = Sample::new(name).blocks(1000..1064, 64);
+        let blocks = Sample::new(name).blocks(1000..1064, 16);
         for block in 0..blocks.mean.len() / 3 {
             let _ = write!(text, "{name},{block}");
             let at = 3 * block..3 * block + 3;
