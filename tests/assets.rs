@@ -61,7 +61,7 @@ fn files_of_the_package_are_there() {
     let sources: Vec<&str> = lines.filter_map(|line| line.split('"').nth(1)).collect();
     assert!(sources.len() > 10, "{sources:?}");
     for source in sources.into_iter().filter(|source| !source.starts_with("target/")) {
-        let (folder, pattern) = source.rsplit_once('/').expect("a file in a folder");
+        let (folder, pattern) = source.rsplit_once('/').unwrap_or((".", source));
         // A pattern has one star.
         let (start, end) =
             (pattern.split('*').next().unwrap_or(""), pattern.split('*').next_back().unwrap_or(""));

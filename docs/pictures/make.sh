@@ -1,23 +1,25 @@
 #!/usr/bin/env bash
-# docs/pictures/make.sh [gallery|keys [PROGRAM]]: renders the pictures of the README's gallery, and those of docs/scenes.md,
-# whose scenes are below. Needs a build with OpenImageIO, as the pictures are JPEG. Without an argument: all.
+# docs/pictures/make.sh [gallery|keys|all [PROGRAM [TIMES]]]: renders the pictures of the README's gallery, and those of
+# docs/scenes.md, whose scenes are below, with TIMES (1) as many samples. Needs a build with OpenImageIO, as the pictures
+# are JPEG.
 set -euo pipefail
 cd "$(dirname "$0")"
 root=$(cd ../.. && pwd)
 what=${1:-all}
 program=${2:-$root/target/release/pathtracer}
+times=${3:-1}
 work=$(mktemp -d)
 trap 'rm -r "$work"' EXIT
 
 # sample NAME WIDTH HEIGHT SAMPLES: a picture of a sample scene.
 sample() {
-    "$program" "$root/scenes/$1.yaml" "$2" "$3" "$4" 20 "gallery_$1.jpg" --quiet
+    "$program" "$root/scenes/$1.yaml" "$2" "$3" "$((times * $4))" 20 "gallery_$1.jpg" --quiet
 }
 
 # key NAME: a picture of the scene on standard input.
 key() {
     cat > "$work/$1.yaml"
-    "$program" "$work/$1.yaml" 240 "${2:-150}" 96 12 "key_$1.jpg" --quiet --error-estimate off
+    "$program" "$work/$1.yaml" 240 150 "$((times * 20))" 12 "key_$1.jpg" --quiet --error-estimate off
 }
 
 # camera [KEY: VALUE]...: looks along +x at the origin's surroundings; later keys replace earlier ones.
@@ -65,10 +67,10 @@ gallery() {
     sample bigBalls 480 270 256
     sample glassBalls 480 270 256
     sample legacyBalls 400 320 256
-    sample mirrorRoom 480 270 384
-    sample objectScene 400 400 256
-    sample cornellBox 320 320 256
-    sample gallery 480 320 384
+    sample mirrorRoom 400 225 64
+    sample objectScene 320 320 48
+    sample cornellBox 240 240 64
+    sample gallery 400 268 64
 }
 
 keys() {

@@ -30,7 +30,7 @@ fn the_manual_has_all_options_and_commands() {
     // A minus sign is escaped, so that it can be copied out of the page.
     let page = ended.stdout.replace("\\-", "-");
     let expected = all_options();
-    assert!(expected.len() > 60, "{expected:?}");
+    assert!(expected.len() > 50, "{expected:?}");
     for option in expected {
         assert!(page.contains(&format!("\\fB{option}\\fR")), "{option} is not in the manual");
     }
@@ -49,10 +49,11 @@ fn the_documents_name_all_options() {
     let text: String = ["README.md", "docs/settings.md", "docs/measuring.md"]
         .map(|name| std::fs::read_to_string(root.join(name)).expect(name))
         .concat();
+    let words: Vec<&str> = text.split(|c: char| !c.is_alphanumeric() && c != '-').collect();
     for option in all_options() {
         // Those of clap itself need no words.
         let is_known = ["--help", "--version"].contains(&option.as_str());
-        assert!(is_known || text.contains(&format!("`{option}")), "{option} is in no document");
+        assert!(is_known || words.contains(&option.as_str()), "{option} is in no document");
     }
 }
 

@@ -54,11 +54,10 @@ command_after() {
 }
 # timed NAME ROOT COMMANDS: runs them there with an empty environment, and says how long it took.
 timed() {
-    local start=$SECONDS
-    env -i HOME=/root TERM=dumb DEBIAN_FRONTEND=noninteractive CARGO_TARGET_DIR=/root/target \
+    local TIMEFORMAT="$1 on $suite: %0R s, %0U s of CPU"
+    time env -i HOME=/root TERM=dumb DEBIAN_FRONTEND=noninteractive CARGO_TARGET_DIR=/root/target \
         PATH=/root/.cargo/bin:/usr/sbin:/usr/bin:/sbin:/bin \
         "$(command -v chroot)" "$2" bash -euo pipefail -c "$3"
-    printf '%s on %s: %d s\n' "$1" "$suite" "$((SECONDS - start))"
 }
 build_package() {
     timed 'build the package' "$1" "

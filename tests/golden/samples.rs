@@ -54,7 +54,9 @@ impl Sample {
             let numbers: Vec<f64> =
                 row.split(',').skip(2).map(|field| field.parse().expect("a number")).collect();
             mean.extend(&numbers[..3]);
-            variance.extend(numbers[3..].iter().map(|error| error * error));
+            // The file has seven digits; where only a light is seen they are all that is unsure.
+            let errors = numbers[..3].iter().zip(&numbers[3..]).map(|(mean, error)| error.max(mean * 1e-6));
+            variance.extend(errors.map(|error| error * error));
         }
         Blocks { mean, variance }
     }
@@ -69,16 +71,13 @@ fn file() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/samples.csv")
 }
 
-/// The mean of a picture lies within four standard errors. Of 324 numbers of a picture (12 x 9 blocks of three channels)
-/// normal ones would have 0.3 % beyond 3 and 0.006 % beyond 4; samples have tails. These are twice the largest shares
-/// of four pictures of every scene with seeds of their own.
+/// Twice what was met in five pictures of every scene with seeds of their own (`shares_of_other_seeds`): a mean 4.6 standard
+/// errors off, as samples have tails that eight renders do not tell; 0.3 % of the 324 numbers of a picture (12 x 9 blocks of
+/// three channels) beyond 3, as normal ones have, and none beyond 4, of which one is allowed.
 fn agrees(verdict: &Verdict) -> bool {
-    verdict.bias.abs() < 4.0 * verdict.bias_error
-        && verdict.beyond[0] <= BEYOND[0]
-        && verdict.beyond[1] <= BEYOND[1]
+    let [beyond_3, beyond_4] = verdict.beyond;
+    verdict.bias.abs() < 9.2 * verdict.bias_error && beyond_3 <= 2.0 / 324.0 && beyond_4 <= 1.0 / 324.0
 }
-
-const BEYOND: [f64; 2] = [0.03, 0.01];
 
 #[test]
 fn every_sample_scene_looks_as_it_did() {
@@ -119,7 +118,7 @@ fn a_camera_that_is_turned_is_noticed() {
 fn make_statistics() {
     let mut text = String::from("scene,block,r,g,b,error of r,error of g,error of b\n");
     for name in NAMES {
-        let blocks = Sample::new(name).blocks(1000..1064, 64);
+        let blocks = Sample::new(name).blocks(1000..1064, 16);
         for block in 0..blocks.mean.len() / 3 {
             let _ = write!(text, "{name},{block}");
             let at = 3 * block..3 * block + 3;
