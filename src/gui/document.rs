@@ -68,7 +68,7 @@ const MARK: &str = "\u{feff}";
 /// [`Error::Io`].
 pub fn write(path: &Path, text: &str) -> Result<(), Error> {
     let file = TextFile::new(path)?;
-    let had_mark = fs::read(file.path()).is_ok_and(|bytes| bytes.starts_with(MARK.as_bytes()));
+    let had_mark = fs::read(path).is_ok_and(|bytes| bytes.starts_with(MARK.as_bytes()));
     let mark = if had_mark { MARK } else { "" };
     file.write(&format!("{mark}{text}"))
 }

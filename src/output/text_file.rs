@@ -25,11 +25,6 @@ impl TextFile {
         Ok(TextFile { path: target, partial })
     }
 
-    /// The file that will be replaced, behind any link.
-    pub(crate) fn path(&self) -> &Path {
-        &self.path
-    }
-
     /// Writes the text under the temporary name, brings it to the disk and renames it. It gets the permissions of the file that
     /// it replaces.
     pub(crate) fn write(&self, text: &str) -> Result<()> {
