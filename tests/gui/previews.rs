@@ -202,8 +202,8 @@ fn an_order_that_cannot_be_says_why_and_the_next_one_is_taken() {
     assert_eq!(session.wait().stage, Stage::Done(Ended::Complete));
 }
 
-/// The mean square of the errors that many small pictures show by that of those that they have, and the standard error of this
-/// ratio. Their scrambles are too long to tell it, so halves of the samples do.
+/// The mean square of the relative errors that many small pictures show by that of those that they have, and the standard
+/// error of this ratio. Their scrambles are too long to tell it, so halves of the samples do.
 fn told_by_true(sampler: SamplerKind) -> [f64; 2] {
     const PICTURES: u64 = 24;
     let loaded = load(&sample("cornellBox"));
@@ -228,7 +228,9 @@ fn told_by_true(sampler: SamplerKind) -> [f64; 2] {
             let error = f64::from(frame.error(pixel).expect("an error"));
             // The mean of all pictures holds a share of this one.
             let square = (grey(frame, pixel) - mean).powi(2) * PICTURES as f64 / (PICTURES - 1) as f64;
-            for (sums, square) in [(&mut told, error * error), (&mut real, square)] {
+            // As the map weighs them, so that the edge of the lamp does not outweigh everything.
+            let weight = 1.0 / (mean * mean + 0.01);
+            for (sums, square) in [(&mut told, weight * error * error), (&mut real, weight * square)] {
                 sums[0] += square;
                 sums[1] += square * square;
             }
