@@ -98,9 +98,10 @@ impl Screen {
         self.tell(&["key", "--clearmodifiers", key]);
     }
 
+    /// Without --sync, which waits long for a mouse that is there already.
     fn click(&self, at: Pos2) {
         let [x, y] = [at.x, at.y].map(|place| place.round().to_string());
-        self.tell(&["mousemove", "--sync", &x, &y, "click", "1"]);
+        self.tell(&["mousemove", &x, &y, "click", "1"]);
     }
 
     fn title(&self) -> String {
