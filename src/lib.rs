@@ -95,5 +95,5 @@ pub mod study;
 
 pub mod cli;
 
-#[cfg_attr(not(feature = "gui"), path = "gui_missing.rs")]
+#[cfg_attr(not(feature = "gui"), path = "gui/missing.rs")]
 pub mod gui;

@@ -1,15 +1,21 @@
 //! A film becomes a picture: exposure, curve, range, and what the file says about itself.
 
 mod aov;
+mod command;
 mod provenance;
+mod rescue;
 mod stamp;
 mod target;
+mod text_file;
 
 pub use crate::picture::{quantize, srgb_encode};
 pub use aov::Aov;
+pub use command::{shell, shell_line};
 pub use provenance::{PREFIX, Provenance, arguments};
+pub use rescue::{FILM_EXTENSION, Rescue};
 pub use stamp::{date_time, stamp};
 pub use target::{Target, Wanted};
+pub(crate) use text_file::TextFile;
 
 use crate::error::Result;
 use crate::film::Film;

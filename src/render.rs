@@ -96,6 +96,9 @@ pub enum AccelKind {
 }
 
 impl AccelKind {
+    /// All kinds.
+    pub const ALL: [AccelKind; 2] = [AccelKind::Embree, AccelKind::Native];
+
     /// The name on the command line and in pictures.
     pub const fn name(self) -> &'static str {
         match self {
@@ -146,6 +149,12 @@ pub trait Watch: Sync {
     /// Whether to stop. Asked for every pixel; the pass that is under way is given up.
     fn cancelled(&self) -> bool;
 
+    /// How long [`Watch::progress`] has held the render so far. It counts to a limit of time, but not to how fast samples are
+    /// taken.
+    fn paused(&self) -> Duration {
+        Duration::ZERO
+    }
+
     /// Called after every pass, by the thread that waits for the render, with the picture so far: it has the bytes of a
     /// render of as many samples. Where blocks stop, after every chunk.
     fn pass(&self, _so_far: &SoFar<'_>) {}
@@ -191,7 +200,7 @@ pub struct Rendered {
     pub ended: Ended,
     /// Seconds to build the accelerator.
     pub build_seconds: f64,
-    /// Seconds from the first ray to the last.
+    /// Seconds from the first ray to the last, but for pauses.
     pub render_seconds: f64,
 }
 

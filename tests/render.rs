@@ -4,6 +4,7 @@ use pathtracer::integrator::Counters;
 use pathtracer::math::Rgb;
 use pathtracer::render::{Ended, Progress, Rendered, Settings, SoFar, Watch, accumulate};
 use std::sync::Mutex;
+use std::time::{Duration, Instant};
 
 /// Follows a render, and stops it once so many samples are taken.
 struct Limit {
@@ -208,4 +209,37 @@ fn small_pictures_get_small_tiles_so_that_all_threads_work() {
     assert_eq!(side(1920, 1080, 2), 32);
     assert_eq!(side(64, 64, 2), 8);
     assert_eq!(side(16, 16, 64), 4);
+}
+
+/// Holds the render once after every tile, for longer than the tile takes.
+#[derive(Default)]
+struct Brake(Mutex<Duration>);
+
+impl Watch for Brake {
+    fn progress(&self, _: &Progress) {
+        let start = Instant::now();
+        while start.elapsed() < Duration::from_millis(1) {
+            std::hint::spin_loop();
+        }
+        *self.0.lock().expect("no panic before") += start.elapsed();
+    }
+
+    fn cancelled(&self) -> bool {
+        false
+    }
+
+    fn paused(&self) -> Duration {
+        *self.0.lock().expect("no panic before")
+    }
+}
+
+#[test]
+fn the_time_in_which_a_render_is_held_does_not_count() {
+    let (brake, start) = (Brake::default(), Instant::now());
+    let settings = Settings { threads: Some(1), ..small(8) };
+    let rendered = accumulate(&settings, &brake, synthetic).expect("a render without trouble");
+    let (all, held) = (start.elapsed().as_secs_f64(), brake.paused().as_secs_f64());
+    // Fifteen tiles in each of four passes.
+    assert!(held >= 0.06, "{held}");
+    assert!(rendered.render_seconds <= all - held, "{} of {all}, {held} held", rendered.render_seconds);
 }

@@ -85,6 +85,9 @@ pub enum BvhQuality {
 }
 
 impl Precision {
+    /// All of them, the default first.
+    pub const ALL: [Precision; 3] = [Precision::Exact, Precision::Robust, Precision::Fast];
+
     /// The name on the command line and in pictures.
     pub const fn name(self) -> &'static str {
         match self {

@@ -3,9 +3,9 @@
 use super::arguments::{BenchJob, Subject};
 use super::console::say;
 use super::event::emit;
-use super::file::OutputFile;
 use super::plot_file::PlotFile;
 use crate::error::{Error, Result};
+use crate::output::TextFile;
 use crate::render::available_bytes;
 use crate::scene;
 use crate::study::bench::{self, Growth, Row, Rung};
@@ -23,7 +23,7 @@ pub(super) fn run(job: &BenchJob) -> anyhow::Result<u8> {
         return super::scaling::run(job, options);
     }
     // Whatever can be known to fail fails before the work.
-    let table = job.csv.as_deref().map(OutputFile::new).transpose()?;
+    let table = job.csv.as_deref().map(TextFile::new).transpose()?;
     let plots = job.plots.iter().map(|path| PlotFile::new(path)).collect::<Result<Vec<PlotFile>>>()?;
     let machine = Machine::here(job.options.isa, job.options.threads)?;
     let shown = Shown { job, machine: &machine };

@@ -3,9 +3,9 @@
 use super::arguments::CompareJob;
 use super::console::say;
 use super::event::emit;
-use super::file::OutputFile;
 use crate::geometry::Hit;
 use crate::math::DVec3;
+use crate::output::TextFile;
 use crate::scene;
 use crate::study::compare::{self, Comparison, PictureDifference, Side};
 use crate::study::machine::Machine;
@@ -23,7 +23,7 @@ pub(super) const DIFFERENT: u8 = 4;
 
 /// Compares; returns the exit code.
 pub(super) fn run(job: &CompareJob) -> anyhow::Result<u8> {
-    let file = job.csv.as_deref().map(OutputFile::new).transpose()?;
+    let file = job.csv.as_deref().map(TextFile::new).transpose()?;
     let scene = scene::load(&job.scene)?;
     let world = World::compile(&scene.desc)?;
     let tell = |doing: &str| {

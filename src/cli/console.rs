@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use std::time::Duration;
 
 /// Prints a line on stderr. A stderr that is closed is no failure.
-pub(super) fn say(line: impl Display) {
+pub(crate) fn say(line: impl Display) {
     let _ = writeln!(io::stderr(), "{line}");
 }
 

@@ -4,6 +4,7 @@ use super::arguments::{EVERY, FarmArguments, FarmCommand, Job};
 use super::saving;
 use crate::error::{Error, Result};
 use crate::film::Region;
+use crate::output::{shell, shell_line};
 use crate::picture::Destination;
 use crate::render::{Recipe, Settings, in_pool};
 use crate::scene;
@@ -105,16 +106,9 @@ fn refused(job: &Job) -> Option<&'static str> {
 
 /// The options of a render that only say how its picture is written.
 pub(super) fn picture_options(job: &Job) -> Vec<String> {
-    let features: Vec<&str> = job.aov.iter().map(|kind| kind.name()).collect();
     let bars = job.error_bars.as_ref().map(|path| path.to_string_lossy().into_owned());
-    let all = [
-        ("--exposure", (job.exposure != 0.0).then(|| job.exposure.to_string())),
-        ("--depth", job.depth.map(|depth| depth.name().to_owned())),
-        ("--aov", (!features.is_empty()).then(|| features.join(","))),
-        ("--error-bars", bars),
-    ];
-    let given = all.into_iter().filter_map(|(option, value)| Some([option.to_owned(), value?]));
-    given.flatten().chain(job.denoise.then(|| "--denoise".to_owned())).collect()
+    let bars = bars.into_iter().flat_map(|path| ["--error-bars".to_owned(), path]);
+    job.wanted().options().into_iter().chain(bars).collect()
 }
 
 /// The template of Open Job Description.
@@ -175,14 +169,13 @@ fn script(farm: &Farm) -> Result<String> {
         source,
     })?;
     let program = shell(&program.to_string_lossy());
-    let line = |words: Vec<String>| words.iter().map(|word| shell(word)).collect::<Vec<_>>().join(" ");
     let scene = farm.job.scene.to_string_lossy();
-    // The array's index stays a variable of the task's shell.
-    let index = "SLURM_ARRAY_TASK_ID_";
+    // The array's index stays a variable of the task's shell. The braces see to it that its words are quoted.
+    let index = "{SLURM_ARRAY_TASK_ID}";
     let file = format!("{}/part-{index}.film", farm.folder);
-    let mut task = line(farm.task(&scene, &file, index));
+    let mut task = shell_line(farm.task(&scene, &file, index));
     task = task.replace(index, "'\"$SLURM_ARRAY_TASK_ID\"'");
-    let merge = line(farm.merge(&farm.folder, &farm.job.image.to_string_lossy()));
+    let merge = shell_line(farm.merge(&farm.folder, &farm.job.image.to_string_lossy()));
     let threads =
         farm.job.settings.threads.map(|threads| format!(" --cpus-per-task={threads}")).unwrap_or_default();
     Ok(format!(
@@ -203,13 +196,4 @@ EOF
         parts = farm.parts,
         last = farm.parts - 1,
     ))
-}
-
-/// A word as the shell takes it.
-pub(super) fn shell(word: &str) -> String {
-    let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./,=+:@%".contains(c);
-    if !word.is_empty() && word.chars().all(is_plain) && !word.contains("SLURM") {
-        return word.to_owned();
-    }
-    format!("'{}'", word.replace('\'', "'\\''"))
 }

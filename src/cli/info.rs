@@ -20,22 +20,10 @@ pub(super) fn run(picture: &Path) -> anyhow::Result<u8> {
         let _ = writeln!(text, "{:width$}  {}", printable(name), printable(&value.to_string()));
     }
     let command = match output::arguments(&info.metadata, picture) {
-        Some(words) => {
-            let words: Vec<String> = words.iter().map(|word| quoted(word)).collect();
-            format!("made again by: pathtracer {}", words.join(" "))
-        }
+        Some(words) => format!("made again by: pathtracer {}", printable(&output::shell_line(words))),
         None => "the picture does not say how this program would make it".to_owned(),
     };
     // A reader that has gone away does not change the answer.
     let _ = writeln!(io::stdout(), "{text}{command}");
     Ok(0)
-}
-
-/// A word as a shell takes it.
-fn quoted(word: &str) -> String {
-    let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./:=+,%@".contains(c);
-    if !word.is_empty() && word.chars().all(is_plain) {
-        return printable(word);
-    }
-    format!("'{}'", printable(&word.replace('\'', r"'\''")))
 }

@@ -12,7 +12,6 @@ mod describe;
 mod diff;
 mod event;
 mod farm;
-mod file;
 mod findings;
 mod info;
 mod interrupt;

@@ -1,7 +1,7 @@
 //! Places for plots.
 
-use super::file::OutputFile;
 use crate::error::{Error, Result};
+use crate::output::TextFile;
 use crate::picture::{Destination, Pixels};
 use std::path::Path;
 
@@ -36,7 +36,7 @@ impl Drawing for crate::study::plot::chart::Sheet {
 
 /// A place for a plot that was found to be writable.
 pub(super) enum PlotFile {
-    Svg(OutputFile),
+    Svg(TextFile),
     Png(Destination),
 }
 
@@ -45,7 +45,7 @@ impl PlotFile {
     pub(super) fn new(path: &Path) -> Result<PlotFile> {
         let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
         match extension.as_str() {
-            "svg" => Ok(PlotFile::Svg(OutputFile::new(path)?)),
+            "svg" => Ok(PlotFile::Svg(TextFile::new(path)?)),
             "png" => Ok(PlotFile::Png(Destination::new(path)?)),
             _ => Err(Error::Usage(format!(
                 "the plot {} has no known extension; known are .svg, .png",

@@ -5,13 +5,9 @@ use super::console::say;
 use super::farm;
 use crate::error::{Error, Result};
 use crate::film::file::FilePlace;
+use crate::output::{FILM_EXTENSION, Rescue};
 use crate::render::{FileKind, FilmFile, OF_A_TASK, Origin, Rendered, State};
-use std::env;
 use std::fs;
-use std::path::{Path, PathBuf};
-
-/// What a film file's name ends in.
-const EXTENSION: &str = "film";
 
 /// Whether the job makes a part of a picture, not a picture.
 pub(super) fn is_part(job: &Job) -> bool {
@@ -20,9 +16,9 @@ pub(super) fn is_part(job: &Job) -> bool {
 
 /// The place of the part that a job makes.
 pub(super) fn part_place(job: &Job) -> Result<FilePlace> {
-    if job.image.extension().is_none_or(|extension| extension != EXTENSION) {
+    if job.image.extension().is_none_or(|extension| extension != FILM_EXTENSION) {
         let why = format!(
-            "a part of a picture needs a name that ends in .{EXTENSION}, not {}",
+            "a part of a picture needs a name that ends in .{FILM_EXTENSION}, not {}",
             job.image.display()
         );
         return Err(Error::Usage(why));
@@ -107,51 +103,6 @@ pub(super) fn resumed(job: &Job, origin: &Origin) -> Result<Option<State>> {
 /// Keeps the film of a picture that could not be written, in the first place that takes it. Says where, and how the picture
 /// can be made of it.
 pub(super) fn rescue(job: &Job, origin: &Origin, rendered: &Rendered, why: Error) -> Error {
-    let mut origin = origin.clone();
-    let is_part = is_part(job);
-    if !is_part {
-        origin.recipe.samples = rendered.film.samples();
-    }
-    let kept = candidates(job).into_iter().find_map(|path| {
-        let place = FilePlace::new(&path).ok()?;
-        rendered.write_part(&place, &origin).ok()?;
-        Some(path)
-    });
-    match kept {
-        Some(path) if is_part => {
-            let (kept, wanted) = (path.display(), job.image.display());
-            Error::Film(format!("{why}\nthe finished part is kept as {kept}: move it to {wanted}"))
-        }
-        Some(path) => {
-            let files = [&path, &job.image].map(|file| file.to_string_lossy().into_owned());
-            let words: Vec<String> =
-                files.into_iter().chain(farm::picture_options(job)).map(|word| farm::shell(&word)).collect();
-            let words = words.join(" ");
-            Error::Film(format!(
-                "{why}\nthe finished film is kept: `pathtracer merge {words}` makes the picture"
-            ))
-        }
-        None => why,
-    }
-}
-
-/// Beside the picture, in the working directory, beside the checkpoint, in the folders for temporary files; nothing that
-/// exists.
-fn candidates(job: &Job) -> Vec<PathBuf> {
-    let name = job.image.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let beside = |path: &Path| path.parent().map(Path::to_path_buf);
-    let folders = [
-        beside(&job.image),
-        Some(PathBuf::new()),
-        job.checkpoint.as_deref().and_then(beside),
-        Some(env::temp_dir()),
-        Some(PathBuf::from("/var/tmp")),
-        env::var_os("HOME").map(PathBuf::from),
-    ];
-    let names = move |folder: PathBuf| {
-        let numbered = (1..100).map(|number| format!("{name}-{number}.{EXTENSION}"));
-        let mut all = [format!("{name}.{EXTENSION}")].into_iter().chain(numbered);
-        all.find_map(|name| Some(folder.join(name)).filter(|path| !path.exists()))
-    };
-    folders.into_iter().flatten().filter_map(names).collect()
+    let options = (!is_part(job)).then(|| farm::picture_options(job));
+    Rescue { image: &job.image, beside: job.checkpoint.as_deref(), options }.keep(origin, rendered, why)
 }

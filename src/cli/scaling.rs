@@ -4,9 +4,9 @@ use super::arguments::BenchJob;
 use super::bench::print;
 use super::console::say;
 use super::event::emit;
-use super::file::OutputFile;
 use super::plot_file::PlotFile;
 use crate::error::Result;
+use crate::output::TextFile;
 use crate::study::machine::Machine;
 use crate::study::scaling::{self, Growth, Kind, Options};
 use crate::study::table::counted;
@@ -14,7 +14,7 @@ use serde::Serialize;
 
 /// Measures; returns the exit code.
 pub(super) fn run(job: &BenchJob, options: &Options) -> anyhow::Result<u8> {
-    let table = job.csv.as_deref().map(OutputFile::new).transpose()?;
+    let table = job.csv.as_deref().map(TextFile::new).transpose()?;
     let plots = job.plots.iter().map(|path| PlotFile::new(path)).collect::<Result<Vec<PlotFile>>>()?;
     let machine = Machine::here(options.isa, options.threads)?;
     if job.json {

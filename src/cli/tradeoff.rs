@@ -3,9 +3,9 @@
 use super::arguments::TradeoffJob;
 use super::console::{duration, say};
 use super::event::emit;
-use super::file::OutputFile;
 use super::plot_file::PlotFile;
 use crate::error::{Error, Result};
+use crate::output::TextFile;
 use crate::scene;
 use crate::study::machine::Machine;
 use crate::study::table::{Figure as RayFigure, counted};
@@ -21,7 +21,7 @@ use std::time::Instant;
 /// Measures; returns the exit code.
 pub(super) fn run(job: &TradeoffJob) -> anyhow::Result<u8> {
     // Whatever can be known to fail fails before the work.
-    let table = job.csv.as_deref().map(OutputFile::new).transpose()?;
+    let table = job.csv.as_deref().map(TextFile::new).transpose()?;
     let plots = job.plots.iter().map(|path| PlotFile::new(path)).collect::<Result<Vec<PlotFile>>>()?;
     let page = job.report.as_deref().map(page_file).transpose()?;
     let size = [job.frame.width, job.frame.height];
@@ -64,12 +64,12 @@ pub(super) fn run(job: &TradeoffJob) -> anyhow::Result<u8> {
     Ok(0)
 }
 
-fn page_file(path: &Path) -> Result<OutputFile> {
+fn page_file(path: &Path) -> Result<TextFile> {
     let is_html = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("html"));
     if !is_html {
         return Err(Error::Usage(format!("the report {} must end in .html", path.display())));
     }
-    OutputFile::new(path)
+    TextFile::new(path)
 }
 
 /// Says which round begins, and how long it goes on.

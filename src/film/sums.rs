@@ -2,6 +2,7 @@
 
 use crate::math::Rgb;
 use crate::sampling::SCRAMBLES;
+use rayon::prelude::*;
 
 /// The sums of every pixel's samples in some chunks.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,7 +38,7 @@ impl Sums {
 
     /// Sums of samples that all lie in one scramble.
     pub fn of_scramble(scramble: usize, samples: u64, radiance: Vec<Rgb>) -> Sums {
-        let greys = radiance.iter().map(|&sum| grey(sum) as f32).collect();
+        let greys = radiance.par_iter().map(|&sum| grey(sum) as f32).collect();
         let mut counts = [0; SCRAMBLES];
         counts[scramble] = samples;
         Sums { samples, radiance, odd: Vec::new(), greys: Greys::One(scramble, greys), counts }

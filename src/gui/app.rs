@@ -1,10 +1,12 @@
 //! The window on the desktop.
 
+use super::forecast::share;
 use super::panels::Desk;
-use super::settings::{Kept, Theme};
+use super::settings::Kept;
 use super::studio::{Studio, Wake};
+use crate::cli::console::say;
 use crate::error::{Error, Result};
-use eframe::egui::{Context, ThemePreference, Ui, ViewportBuilder, ViewportCommand};
+use eframe::egui::{Context, Ui, ViewportBuilder, ViewportCommand};
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::iterator::Signals;
 use std::env;
@@ -57,8 +59,7 @@ fn unavailable(why: &str) -> Error {
 struct App {
     studio: Studio,
     desk: Desk,
-    theme: Option<Theme>,
-    title: String,
+    shown_title: String,
     /// The scenes that were kept last.
     recent: Vec<PathBuf>,
     is_signalled: Arc<AtomicBool>,
@@ -79,28 +80,15 @@ impl App {
         })?;
         let recent = kept.recent.clone();
         let studio = Studio::new(kept, wake);
-        Ok(App { studio, desk: Desk::default(), theme: None, title: String::new(), recent, is_signalled })
+        Ok(App { studio, desk: Desk::default(), shown_title: String::new(), recent, is_signalled })
     }
 
-    /// Follows the theme, the title and the size.
+    /// Follows the title and the size.
     fn follow(&mut self, ctx: &Context) {
-        let theme = self.studio.kept.theme;
-        if self.theme.replace(theme) != Some(theme) {
-            ctx.set_theme(match theme {
-                Theme::System => ThemePreference::System,
-                Theme::Dark => ThemePreference::Dark,
-                Theme::Light => ThemePreference::Light,
-            });
-        }
-        let mark = if self.studio.is_edited() { " *" } else { "" };
-        let name = self.studio.document.loaded.as_ref().and_then(|loaded| loaded.path.file_name());
-        let title = match name {
-            Some(name) => format!("{}{mark} – pathtracer", name.to_string_lossy()),
-            None => "pathtracer".to_owned(),
-        };
-        if title != self.title {
+        let title = self.title();
+        if title != self.shown_title {
             ctx.send_viewport_cmd(ViewportCommand::Title(title.clone()));
-            self.title = title;
+            self.shown_title = title;
         }
         let size = ctx.content_rect().size();
         self.studio.kept.size = [size.x, size.y];
@@ -108,6 +96,21 @@ impl App {
             self.recent = self.studio.kept.recent.clone();
             self.studio.kept.save();
         }
+    }
+
+    /// The name of the scene, whether it has changes, and how far its final render is once there is a picture of it.
+    fn title(&self) -> String {
+        let name = self.studio.document.loaded.as_ref().and_then(|loaded| loaded.path.file_name());
+        let Some(name) = name else { return "pathtracer".into() };
+        let mark = if self.studio.is_edited() { " *" } else { "" };
+        let status = self.studio.session.status();
+        let has_picture = self.studio.session.frame().is_some_and(|frame| frame.job == status.job);
+        let progress = if self.studio.is_rendering_final() && has_picture {
+            format!("{:.0} % – ", 100.0 * share(&status))
+        } else {
+            String::new()
+        };
+        format!("{progress}{}{mark} – pathtracer", name.to_string_lossy())
     }
 
     /// Closes, but for changes that are not saved. A signal does not ask.
@@ -122,9 +125,18 @@ impl App {
         if self.studio.is_edited() && !self.desk.dialogs.may_close {
             ctx.send_viewport_cmd(ViewportCommand::CancelClose);
             self.desk.dialogs.is_closing = true;
+            return;
+        }
+        let is_well = self.studio.close();
+        self.studio.kept.save();
+        if is_well {
+            return;
+        }
+        if self.is_signalled.load(Ordering::Relaxed) {
+            self.studio.notice.iter().for_each(|notice| say(&notice.text));
         } else {
-            self.studio.close();
-            self.studio.kept.save();
+            // The window stays to say what could not be written.
+            ctx.send_viewport_cmd(ViewportCommand::CancelClose);
         }
     }
 }

@@ -6,7 +6,7 @@ use eframe::egui::{Color32, ColorImage};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::{self, JoinHandle};
 
-/// The widest and highest image that is handed to the graphics driver.
+/// The widest and highest image that is handed to the graphics driver, however much it takes.
 const LARGEST_SIDE: usize = 8192;
 
 /// What of a frame is shown.
@@ -54,6 +54,8 @@ pub struct Request {
     pub view: View,
     /// Brightness in stops.
     pub exposure: f64,
+    /// The most pixels of a side of the image: what the graphics driver takes.
+    pub most: usize,
 }
 
 impl Request {
@@ -70,6 +72,7 @@ impl Request {
         Arc::ptr_eq(&self.frame, &other.frame)
             && self.view == other.view
             && self.exposure.to_bits() == other.exposure.to_bits()
+            && self.most == other.most
     }
 }
 
@@ -175,7 +178,7 @@ impl Drop for Display {
 pub fn show(request: Request) -> Shown {
     let frame = &*Arc::clone(&request.frame);
     let [width, height] = frame.size();
-    let step = width.max(height).div_ceil(LARGEST_SIDE).max(1);
+    let step = width.max(height).div_ceil(request.most.clamp(1, LARGEST_SIDE)).max(1);
     let size = [width.div_ceil(step), height.div_ceil(step)];
     let colors = colors(frame, request.view, request.exposure);
     let mut histogram = Box::new([[0; 256]; 3]);

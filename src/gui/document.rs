@@ -1,13 +1,10 @@
 //! The scene file: read beside the window's thread, watched, and kept with its text.
 
 use crate::error::{Diagnostic, Error, Severity};
-use crate::picture::partial_file;
-use crate::scene::desc::{MaterialDesc, ShapeDesc};
+use crate::output::TextFile;
 use crate::scene::edit::Editable;
 use crate::scene::{self, Scene};
-use std::collections::BTreeSet;
-use std::fs::{self, File};
-use std::io::Write;
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
@@ -70,24 +67,10 @@ const MARK: &str = "\u{feff}";
 /// # Errors
 /// [`Error::Io`].
 pub fn write(path: &Path, text: &str) -> Result<(), Error> {
-    let target = whole_path(path);
-    let had_mark = fs::read(&target).is_ok_and(|bytes| bytes.starts_with(MARK.as_bytes()));
+    let file = TextFile::new(path)?;
+    let had_mark = fs::read(path).is_ok_and(|bytes| bytes.starts_with(MARK.as_bytes()));
     let mark = if had_mark { MARK } else { "" };
-    let partial = partial_file(&target);
-    let write = || {
-        let mut file = File::create(&partial)?;
-        file.write_all(format!("{mark}{text}").as_bytes())?;
-        if let Ok(before) = fs::metadata(&target) {
-            file.set_permissions(before.permissions())?;
-        }
-        file.sync_all()?;
-        fs::rename(&partial, &target)
-    };
-    write().map_err(|source| {
-        // It may not even be there.
-        let _ = fs::remove_file(&partial);
-        Error::Io { action: "save the scene".into(), path: path.into(), source }
-    })
+    file.write(&format!("{mark}{text}"))
 }
 
 /// Whether a file still holds the text that was read from it; one of another name may hold anything.
@@ -148,18 +131,14 @@ impl Files {
 
     /// The scene file with all that it names. The scene file's stamp is from before it was read.
     fn with_named(mut self, scene: &Scene) -> Files {
-        let named: BTreeSet<PathBuf> = named(scene);
-        self.0.extend(named.into_iter().map(|path| {
-            let stamp = stamp(&path);
-            (path, stamp)
-        }));
+        self.0.extend(scene.files.iter().map(|path| (path.clone(), stamp(path))));
         self
     }
 
     /// Also those that were watched before, as they are now.
-    fn with_those_of(mut self, before: Files) -> Files {
-        let others = before.0.into_iter().filter(|(path, _)| *path != self.0[0].0);
-        let others: Vec<(PathBuf, Stamp)> = others.map(|(path, _)| (path.clone(), stamp(&path))).collect();
+    fn with_those_of(mut self, before: &Files) -> Files {
+        let others = before.0.iter().filter(|(path, _)| *path != self.0[0].0);
+        let others: Vec<(PathBuf, Stamp)> = others.map(|(path, _)| (path.clone(), stamp(path))).collect();
         self.0.extend(others);
         self
     }
@@ -167,25 +146,6 @@ impl Files {
     fn have_changed(&self) -> bool {
         self.0.iter().any(|(path, before)| stamp(path) != *before)
     }
-}
-
-/// The files that a scene names.
-fn named(scene: &Scene) -> BTreeSet<PathBuf> {
-    let desc = &scene.desc;
-    let mut files = BTreeSet::new();
-    let of_material = |material: &MaterialDesc, files: &mut BTreeSet<PathBuf>| {
-        let textures = [&material.textures.color, &material.textures.coat_color];
-        files.extend(textures.into_iter().flatten().map(|picture| picture.file.clone()));
-    };
-    for object in &desc.objects {
-        of_material(&object.material, &mut files);
-        object.faces.iter().for_each(|(_, material)| of_material(material, &mut files));
-        if let ShapeDesc::TriangleMesh { file, .. } = &object.shape {
-            files.insert(file.clone());
-        }
-    }
-    files.extend(desc.environment_map.iter().map(|map| map.picture.file.clone()));
-    files
 }
 
 /// What a read ended with.
@@ -201,7 +161,9 @@ pub struct Document {
     /// What is wrong with the newest file, or what its user should know.
     pub diagnostics: Vec<Diagnostic>,
     reading: Option<Receiver<(Files, Outcome)>>,
-    files: Files,
+    files: Arc<Files>,
+    /// A look whether files have changed: those files, and whether they have.
+    looking: Option<Receiver<(Arc<Files>, bool)>>,
     looked: Option<Instant>,
 }
 
@@ -219,8 +181,8 @@ impl Document {
     pub fn open(&mut self, path: &Path, wake: impl FnOnce() + Send + 'static) {
         let is_same = self.path.as_deref().is_some_and(|before| same_file(before, path));
         self.path = Some(path.to_path_buf());
-        let before = if is_same { std::mem::take(&mut self.files) } else { Files::default() };
-        self.files = Files::of(path);
+        let before = std::mem::take(&mut self.files);
+        let before = if is_same { before } else { Arc::default() };
         let (sender, receiver) = channel();
         let path = path.to_path_buf();
         self.reading = Some(receiver);
@@ -230,7 +192,7 @@ impl Document {
             let files = match &outcome {
                 Ok(loaded) => files.with_named(&loaded.scene),
                 // A mesh that is half written now may be whole later.
-                Err(_) => files.with_those_of(before),
+                Err(_) => files.with_those_of(&before),
             };
             // Nobody waits for a file that was left for another one.
             let _ = sender.send((files, outcome));
@@ -255,7 +217,7 @@ impl Document {
             }
             Ok((files, outcome)) => {
                 self.reading = None;
-                self.files = files;
+                self.files = Arc::new(files);
                 Some(self.take(outcome))
             }
         }
@@ -283,19 +245,63 @@ impl Document {
 
     /// Goes on with a scene that was just written to its file, whose changed date means nothing.
     pub fn take_saved(&mut self, loaded: Loaded, files: Files) {
-        self.files = files;
+        self.files = Arc::new(files);
         self.take(Ok(Arc::new(loaded)));
     }
 
-    /// Whether a file has changed since it was read. Looks only now and then.
-    pub fn has_changed(&mut self) -> bool {
-        let is_due = self.looked.is_none_or(|looked| looked.elapsed() >= WATCH_EVERY);
-        if self.path.is_none() || self.reading.is_some() || !is_due {
-            return false;
+    /// Whether a file has changed since it was read. Looks only now and then, and on a thread of its own, since a folder may be
+    /// far away; `wake` is called when that thread has found a change.
+    pub fn has_changed(&mut self, wake: impl FnOnce() + Send + 'static) -> bool {
+        if let Some(looking) = &self.looking {
+            let found = match looking.try_recv() {
+                Err(TryRecvError::Empty) => return false,
+                found => found.ok(),
+            };
+            self.looking = None;
+            self.looked = Some(Instant::now());
+            // What was read again in the meantime is not what was looked at.
+            let is_present = |files: &Arc<Files>| Arc::ptr_eq(files, &self.files) && self.reading.is_none();
+            return found.is_some_and(|(files, has_changed)| has_changed && is_present(&files));
         }
-        self.looked = Some(Instant::now());
-        self.files.have_changed()
+        let is_due = self.looked.is_none_or(|looked| looked.elapsed() >= WATCH_EVERY);
+        if is_due && self.path.is_some() && self.reading.is_none() {
+            let (sender, receiver) = channel();
+            let files = Arc::clone(&self.files);
+            self.looking = Some(receiver);
+            thread::spawn(move || {
+                let has_changed = files.have_changed();
+                // A window that was closed does not want to know.
+                let _ = sender.send((files, has_changed));
+                if has_changed {
+                    wake();
+                }
+            });
+        }
+        false
     }
+}
+
+/// What the file says by now, with what was changed in the window since it was read before.
+pub(super) fn merge(old: &Editable, edited: &Editable, new: &Editable) -> Editable {
+    let mut merged = new.clone();
+    if edited.camera != old.camera {
+        merged.camera = edited.camera.clone();
+    }
+    if edited.environment != old.environment {
+        merged.environment = edited.environment.clone();
+    }
+    if edited.rotation != old.rotation && new.rotation.is_some() {
+        merged.rotation = edited.rotation;
+    }
+    if old.surfaces.len() == new.surfaces.len() {
+        let all = merged.surfaces.iter_mut().zip(old.surfaces.iter().zip(&edited.surfaces));
+        for (merged, (old, edited)) in all {
+            if old != edited && merged.is_some() {
+                *merged = edited.clone();
+            }
+        }
+    }
+    merged
 }
 
 fn plain(message: String) -> Diagnostic {

@@ -2,10 +2,12 @@
 
 use super::settings::Knobs;
 use crate::cli::console::digits;
-use crate::render::{MAX_BOUNCES, MAX_SAMPLES, MAX_SIDE, MIN_TIME};
+use crate::picture::Format;
+use crate::render::{MAX_BOUNCES, MAX_PIXELS, MAX_SAMPLES, MAX_SIDE, MIN_TIME};
 use crate::scene::desc::{ApertureDesc, CameraDesc};
-use eframe::egui::{Color32, Response, RichText, Stroke, StrokeKind, TextEdit, Ui};
+use eframe::egui::{Color32, Label, Response, RichText, Stroke, StrokeKind, TextEdit, Ui, Visuals};
 use std::collections::HashMap;
+use std::path::Path;
 
 /// The fields.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -22,8 +24,8 @@ pub enum Field {
     Noise,
     /// Seconds of a final render.
     Time,
-    /// Brightness in stops.
-    Exposure,
+    /// The file of the final picture.
+    File,
     /// Degrees.
     Fov,
     /// `DepthOfField` or `ApertureRadius`.
@@ -48,7 +50,7 @@ impl Field {
             Field::Bounces => "Bounces",
             Field::Noise => "Noise target",
             Field::Time => "Time budget (s)",
-            Field::Exposure => "Exposure (stops)",
+            Field::File => "File",
             Field::Fov => "Field of view (°)",
             Field::Lens => "Depth of field",
             Field::Focus => "Focus distance",
@@ -60,6 +62,12 @@ impl Field {
             Field::LookingAt(1) => "Look at y",
             Field::LookingAt(_) => "Look at z",
         }
+    }
+
+    /// Whether it is about the camera.
+    fn is_of_camera(self) -> bool {
+        use Field::{Focus, Fov, Lens, LookingAt, Position, Roll};
+        matches!(self, Fov | Lens | Focus | Roll | Position(_) | LookingAt(_))
     }
 
     /// What it is about.
@@ -74,7 +82,9 @@ impl Field {
                 "Relative error at which blocks of the final picture stop, such as 0.02; empty: all take the samples"
             }
             Field::Time => "The best picture within this time of sampling; empty: no limit",
-            Field::Exposure => "Brightness of what is shown, and of pictures that are not linear",
+            Field::File => {
+                "The final picture is written there: .png, .exr (linear), with OpenImageIO .tif, .hdr, .jpg"
+            }
             Field::Fov => "Horizontal, between the edges of the picture",
             Field::Lens => "Size of the lens: 0 is a pinhole, where everything is sharp",
             Field::Focus => "Distance of the sharp plane along the viewing direction; F and a click set it",
@@ -94,7 +104,7 @@ impl Field {
             Field::Bounces => knobs.bounces.to_string(),
             Field::Noise => knobs.noise.map(shown).unwrap_or_default(),
             Field::Time => knobs.time.map(shown).unwrap_or_default(),
-            Field::Exposure => shown(knobs.exposure),
+            Field::File => knobs.image.clone(),
             Field::Fov => shown(camera.fov * 180.0),
             Field::Lens => match camera.aperture {
                 ApertureDesc::DepthOfField(size) | ApertureDesc::Radius(size) => shown(size),
@@ -114,10 +124,7 @@ impl Field {
         match self {
             Field::Width => knobs.width = whole(text, 1, MAX_SIDE.into())? as u32,
             Field::Height => knobs.height = whole(text, 1, MAX_SIDE.into())? as u32,
-            Field::Samples => {
-                let least = u64::from(knobs.noise.is_none() && knobs.time.is_none());
-                knobs.samples = whole(text, least, MAX_SAMPLES)?;
-            }
+            Field::Samples => knobs.samples = whole(text, 0, MAX_SAMPLES)?,
             Field::Bounces => knobs.bounces = whole(text, 1, MAX_BOUNCES.into())? as u32,
             Field::Noise => knobs.noise = optional(text, number(|x| x > 0.0, " > 0"))?,
             Field::Time => {
@@ -125,7 +132,7 @@ impl Field {
                 let in_range = number(move |x| (least..1e9).contains(&x), " of at least 0.1");
                 knobs.time = optional(text, in_range)?;
             }
-            Field::Exposure => knobs.exposure = number(|x| x.abs() <= 100.0, " from -100 to 100")(text)?,
+            Field::File => knobs.image = picture(text)?,
             Field::Fov => camera.fov = number(|x| x > 0.0 && x < 180.0, " > 0 and < 180")(text)? / 180.0,
             Field::Lens => {
                 let size = number(|x| x >= 0.0, " >= 0")(text)?;
@@ -150,6 +157,23 @@ impl Field {
             }
         }
         Ok(())
+    }
+}
+
+/// Whether the numbers of the fields, each of which may be right, can't be together: the field to blame, and the reason.
+fn conflict(knobs: &Knobs) -> Option<(Field, String)> {
+    if knobs.samples == 0 && knobs.noise.is_none() && knobs.time.is_none() {
+        return Some((Field::Samples, "0 needs a noise target or a time budget".into()));
+    }
+    let is_large = u64::from(knobs.width) * u64::from(knobs.height) > MAX_PIXELS;
+    is_large.then(|| (Field::Height, format!("more than {MAX_PIXELS} pixels in all")))
+}
+
+/// The name of a picture.
+fn picture(text: &str) -> Result<String, String> {
+    match Format::of(Path::new(text)) {
+        Ok(_) if Path::new(text).file_stem().is_some() => Ok(text.to_owned()),
+        _ => Err(format!("expected a name that ends in {}", Format::extensions())),
     }
 }
 
@@ -184,22 +208,38 @@ struct Draft {
 #[derive(Debug, Default)]
 pub struct Form {
     drafts: HashMap<Field, Draft>,
+    /// Why the picture's file could not be written when that was last tried.
+    refusal: Option<String>,
 }
 
 impl Form {
     /// What is wrong with a field.
-    pub fn error(&self, field: Field) -> Option<&str> {
-        self.drafts.get(&field)?.error.as_deref()
+    pub fn error(&self, field: Field, knobs: &Knobs) -> Option<String> {
+        let typed = || self.drafts.get(&field)?.error.clone();
+        let refused = || self.refusal.clone().filter(|_| field == Field::File);
+        let together = || conflict(knobs).filter(|(blamed, _)| *blamed == field).map(|(_, why)| why);
+        typed().or_else(refused).or_else(together)
     }
 
-    /// The first field, if any, that holds something wrong.
-    pub fn wrong(&self) -> Option<(Field, &str)> {
-        self.drafts.iter().find_map(|(&field, draft)| Some((field, draft.error.as_deref()?)))
+    /// A field, if any, with which nothing can be rendered.
+    pub fn wrong(&self, knobs: &Knobs) -> Option<(Field, String)> {
+        let mut typed = self.drafts.iter().filter_map(|(&field, draft)| Some((field, draft.error.clone()?)));
+        typed.next().or_else(|| conflict(knobs))
     }
 
     /// Forgets what was typed.
     pub fn clear(&mut self) {
-        self.drafts.clear();
+        *self = Form::default();
+    }
+
+    /// Forgets what was typed about the camera.
+    pub fn clear_camera(&mut self) {
+        self.drafts.retain(|field, _| !field.is_of_camera());
+    }
+
+    /// Marks the picture's file, or no longer.
+    pub fn set_refusal(&mut self, why: Option<String>) {
+        self.refusal = why;
     }
 
     /// Types into a field.
@@ -212,6 +252,9 @@ impl Form {
     ) -> bool {
         let error = field.write(text, knobs, camera).err();
         let is_right = error.is_none();
+        if field == Field::File {
+            self.refusal = None;
+        }
         self.drafts.insert(field, Draft { text: text.to_owned(), error });
         is_right
     }
@@ -227,18 +270,18 @@ impl Form {
     ) -> (Response, bool) {
         let draft = self.drafts.get(&field);
         let mut text = draft.map_or_else(|| field.read(knobs, camera), |draft| draft.text.clone());
-        let is_wrong = draft.is_some_and(|draft| draft.error.is_some());
+        let is_wrong = self.error(field, knobs).is_some();
         let edit = TextEdit::singleline(&mut text).id_salt(field).desired_width(width);
-        let edit = if is_wrong { edit.text_color(wrong_color(ui)) } else { edit };
+        let edit = if is_wrong { edit.text_color(wrong_color(ui.visuals())) } else { edit };
         let mut response = ui.add(edit);
         let is_changed = response.changed() && self.type_text(field, &text, knobs, camera);
         // What is right is shown as it is understood once the field is left; what is wrong stays to be mended.
-        if !response.has_focus() && self.error(field).is_none() {
+        if !response.has_focus() && self.drafts.get(&field).is_some_and(|draft| draft.error.is_none()) {
             self.drafts.remove(&field);
         }
-        response = match self.error(field) {
+        response = match self.error(field, knobs) {
             Some(error) => {
-                let stroke = Stroke::new(1.0, wrong_color(ui));
+                let stroke = Stroke::new(1.0, wrong_color(ui.visuals()));
                 ui.painter().rect_stroke(response.rect, 2.0, stroke, StrokeKind::Outside);
                 response.on_hover_text(error)
             }
@@ -248,14 +291,15 @@ impl Form {
     }
 
     /// Draws the reason below a field that is wrong.
-    pub fn show_error(&self, ui: &mut Ui, field: Field) {
-        if let Some(error) = self.error(field) {
-            ui.label(RichText::new(error).small().color(wrong_color(ui)));
+    pub fn show_error(&self, ui: &mut Ui, field: Field, knobs: &Knobs) {
+        if let Some(error) = self.error(field, knobs) {
+            let text = RichText::new(error).small().color(wrong_color(ui.visuals()));
+            ui.add(Label::new(text).wrap());
         }
     }
 }
 
 /// The colour of mistakes.
-pub fn wrong_color(ui: &Ui) -> Color32 {
-    if ui.visuals().dark_mode { Color32::from_rgb(255, 120, 110) } else { Color32::from_rgb(190, 20, 20) }
+pub fn wrong_color(visuals: &Visuals) -> Color32 {
+    if visuals.dark_mode { Color32::from_rgb(255, 120, 110) } else { Color32::from_rgb(190, 20, 20) }
 }

@@ -3,8 +3,9 @@
 use super::document;
 use crate::accel::Precision;
 use crate::error::Result;
-use crate::picture::partial_file;
-use crate::render::{AccelKind, Settings};
+use crate::output::{Aov, TextFile, Wanted, shell_line};
+use crate::picture::{Depth, Format};
+use crate::render::{AccelKind, SHORT_SCRAMBLE_LENGTH, Settings};
 use crate::sampling::SamplerKind;
 use serde_json::{Value, json};
 use std::env;
@@ -68,6 +69,12 @@ pub struct Knobs {
     pub preview: PreviewSize,
     /// The picture's file.
     pub image: String,
+    /// What a value of it takes, where its format can have that.
+    pub depth: Option<Depth>,
+    /// What goes beside the light into an EXR.
+    pub aov: Vec<Aov>,
+    /// Whether the final picture is denoised.
+    pub denoise: bool,
 }
 
 impl Default for Knobs {
@@ -85,14 +92,38 @@ impl Default for Knobs {
             sampler: SamplerKind::default(),
             preview: PreviewSize::default(),
             image: "picture.png".into(),
+            depth: None,
+            aov: Vec::new(),
+            denoise: false,
         }
     }
 }
 
 impl Knobs {
+    /// The format of the picture's file, if its name tells one.
+    pub fn format(&self) -> Option<Format> {
+        Format::of(Path::new(&self.image)).ok()
+    }
+
+    /// The picture that the final render makes.
+    pub fn wanted(&self) -> Wanted {
+        let format = self.format();
+        let can_be = |depth: &Depth| format.is_some_and(|format| format.depths().contains(depth));
+        let aov = if format == Some(Format::Exr) { self.aov.clone() } else { Vec::new() };
+        Wanted {
+            image: self.image.clone().into(),
+            depth: self.depth.filter(can_be),
+            exposure: self.exposure,
+            aov,
+            denoise: self.denoise,
+            stamp: false,
+        }
+    }
+
     /// Of the final render, as the command line has them.
     pub fn settings(&self) -> Settings {
         let (noise, time) = (self.noise, self.time.map(Duration::from_secs_f64));
+        let Wanted { aov, denoise, .. } = self.wanted();
         Settings {
             accel: self.accel,
             precision: self.precision,
@@ -100,6 +131,8 @@ impl Knobs {
             noise,
             time,
             error_estimate: true,
+            scramble_length: aov.contains(&Aov::Error).then_some(SHORT_SCRAMBLE_LENGTH),
+            features: denoise || aov.iter().any(|aov| matches!(aov, Aov::Feature(_))),
             ..Settings::new(self.width, self.height, self.samples, self.bounces)
         }
     }
@@ -109,7 +142,8 @@ impl Knobs {
     pub fn preview_settings(&self, place: [u32; 2]) -> Settings {
         let [width, height] = self.preview_size(place);
         let samples = if self.samples == 0 { u64::from(u16::MAX) } else { self.samples };
-        Settings { width, height, samples, noise: None, time: None, ..self.settings() }
+        let of_light = Settings { scramble_length: None, features: false, ..self.settings() };
+        Settings { width, height, samples, noise: None, time: None, ..of_light }
     }
 
     fn preview_size(&self, [width, height]: [u32; 2]) -> [u32; 2] {
@@ -133,34 +167,10 @@ impl Knobs {
         self.settings().check()
     }
 
-    /// The arguments of the command line that render the same.
+    /// The command line that renders the same.
     pub fn command(&self, scene: &Path) -> String {
-        let mut words = vec!["pathtracer".to_owned(), quoted(&scene.to_string_lossy())];
-        words.extend(
-            [u64::from(self.width), u64::from(self.height), self.samples, self.bounces.into()]
-                .map(|n| n.to_string()),
-        );
-        words.push(quoted(&self.image));
-        let default = Knobs::default();
-        let mut option =
-            |name: &str, value: Option<String>| words.extend(value.map(|value| format!("--{name} {value}")));
-        option("accel", (self.accel != default.accel).then(|| self.accel.name().into()));
-        option("precision", (self.precision != default.precision).then(|| self.precision.name().into()));
-        option("sampler", (self.sampler != default.sampler).then(|| self.sampler.to_string()));
-        option("noise", self.noise.map(|noise| noise.to_string()));
-        option("time", self.time.map(|time| time.to_string()));
-        option("exposure", (self.exposure != 0.0).then(|| self.exposure.to_string()));
-        words.join(" ")
-    }
-}
-
-/// A word for a shell.
-fn quoted(word: &str) -> String {
-    let is_plain = |c: char| c.is_alphanumeric() || "/._-+,@%".contains(c);
-    if !word.is_empty() && word.chars().all(is_plain) {
-        word.into()
-    } else {
-        format!("'{}'", word.replace('\'', "'\\''"))
+        let arguments = self.settings().arguments(&scene.to_string_lossy(), &self.image);
+        shell_line(["pathtracer".to_owned()].into_iter().chain(arguments).chain(self.wanted().options()))
     }
 }
 
@@ -221,9 +231,7 @@ impl Kept {
     pub fn save(&self) {
         let Some(file) = file() else { return };
         let _ = file.parent().map(fs::create_dir_all);
-        let partial = partial_file(&file);
-        let _ =
-            fs::write(&partial, format!("{:#}\n", self.value())).and_then(|()| fs::rename(&partial, &file));
+        let _ = TextFile::new(&file).and_then(|file| file.write(&format!("{:#}\n", self.value())));
     }
 
     /// Puts a scene at the head of the list.
@@ -247,7 +255,10 @@ impl Kept {
             "exposure": knobs.exposure,
             "accelerator": knobs.accel.name(),
             "precision": knobs.precision.name(),
-            "sampler": knobs.sampler.to_string(),
+            "sampler": knobs.sampler.name(),
+            "depth": knobs.depth.map(Depth::name),
+            "aov": knobs.aov.iter().map(|aov| aov.name()).collect::<Vec<_>>(),
+            "denoise": knobs.denoise,
             "preview": knobs.preview.name(),
             "theme": self.theme.name(),
             "window": self.size,
@@ -268,11 +279,17 @@ impl Kept {
         knobs.noise = value["noise"].as_f64();
         knobs.time = value["time"].as_f64().filter(|time| Duration::try_from_secs_f64(*time).is_ok());
         set(&mut knobs.exposure, value["exposure"].as_f64().filter(|stops| stops.abs() <= 100.0));
-        set(&mut knobs.accel, named(&ACCELS, AccelKind::name, &value["accelerator"]));
-        set(&mut knobs.precision, named(&PRECISIONS, Precision::name, &value["precision"]));
-        let sampler = SAMPLERS.into_iter().find(|sampler| value["sampler"] == sampler.to_string());
-        set(&mut knobs.sampler, sampler);
+        set(&mut knobs.accel, named(&AccelKind::ALL, AccelKind::name, &value["accelerator"]));
+        set(&mut knobs.precision, named(&Precision::ALL, Precision::name, &value["precision"]));
+        set(&mut knobs.sampler, named(&SamplerKind::ALL, SamplerKind::name, &value["sampler"]));
+        knobs.depth = named(&Depth::ALL, Depth::name, &value["depth"]);
+        let channels = value["aov"].as_array().into_iter().flatten();
+        knobs.aov = channels.filter_map(|name| named(&Aov::ALL, Aov::name, name)).collect();
+        knobs.denoise = value["denoise"] == true;
         set(&mut knobs.preview, named(&PreviewSize::ALL, PreviewSize::name, &value["preview"]));
+        if knobs.samples == 0 && knobs.noise.is_none() && knobs.time.is_none() {
+            knobs.samples = default.knobs.samples;
+        }
         if knobs.check().is_err() {
             *knobs = default.knobs;
         }
@@ -287,13 +304,6 @@ impl Kept {
     }
 }
 
-/// The accelerators of this build.
-pub const ACCELS: [AccelKind; 2] = [AccelKind::Embree, AccelKind::Native];
-/// The precisions.
-pub const PRECISIONS: [Precision; 3] = [Precision::Exact, Precision::Robust, Precision::Fast];
-/// The sources of random numbers.
-pub const SAMPLERS: [SamplerKind; 2] = [SamplerKind::Sobol, SamplerKind::Independent];
-
 fn set<T>(to: &mut T, value: Option<T>) {
     if let Some(value) = value {
         *to = value;
@@ -304,9 +314,14 @@ fn named<T: Copy>(all: &[T], name: impl Fn(T) -> &'static str, value: &Value) ->
     all.iter().copied().find(|&one| value.as_str() == Some(name(one)))
 }
 
-/// Where it is kept: in the folder for settings that the desktop names.
+/// Where it is kept.
 fn file() -> Option<PathBuf> {
+    Some(own_folder("XDG_CONFIG_HOME", ".config")?.join("window.json"))
+}
+
+/// This program's folder in the one that the desktop names by a variable, else in one of the home folder.
+pub(super) fn own_folder(variable: &str, otherwise: &str) -> Option<PathBuf> {
     let folder = |name: &str| env::var_os(name).map(PathBuf::from).filter(|folder| folder.is_absolute());
-    let config = folder("XDG_CONFIG_HOME").or_else(|| Some(folder("HOME")?.join(".config")))?;
-    Some(config.join("pathtracer/window.json"))
+    let base = folder(variable).or_else(|| Some(folder("HOME")?.join(otherwise)))?;
+    Some(base.join("pathtracer"))
 }

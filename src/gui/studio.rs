@@ -3,13 +3,13 @@
 use super::camera_control;
 use super::display::{Display, View};
 use super::document::{self, Document, Event, Loaded};
+use super::examples::{Example, Examples};
 use super::form::Form;
 use super::history::History;
 use super::pick::{self, Pick, Tool};
 use super::saving::{self, SavedScene};
 use super::session::{Frame, Order, Purpose, Session, Stage, Status};
-use super::settings::Kept;
-use crate::output::Wanted;
+use super::settings::{Kept, own_folder};
 use crate::render::{AccelKind, Settings};
 use crate::scene::edit::Editable;
 use std::path::{Path, PathBuf};
@@ -32,10 +32,9 @@ pub struct Notice {
     pub is_error: bool,
 }
 
-/// What a preview depends on, but for its size.
+/// What a preview depends on, but for its size. Every scene that is read, and every change, has a version of its own.
 #[derive(Clone, Debug, PartialEq)]
 struct Key {
-    loaded: usize,
     version: u64,
     settings: (u64, u32, AccelKind, crate::accel::Precision, crate::sampling::SamplerKind),
 }
@@ -48,6 +47,8 @@ pub struct Studio {
     pub document: Document,
     /// What the scene says by now.
     pub editable: Option<Arc<Editable>>,
+    /// The example scenes.
+    pub examples: Examples,
     /// The renders.
     pub session: Session,
     /// What is shown.
@@ -94,6 +95,7 @@ impl Studio {
             kept,
             document: Document::default(),
             editable: None,
+            examples: Examples::look(notify(&wake)),
             session: Session::new(notify(&wake)),
             display: Display::new(notify(&wake)),
             stored_display: Display::new(notify(&wake)),
@@ -140,6 +142,16 @@ impl Studio {
         self.document.open(path, wake);
     }
 
+    /// Begins to open an example.
+    pub fn open_example(&mut self, example: &Example) {
+        // Without a home there are still the folders for temporary files.
+        let data = own_folder("XDG_DATA_HOME", ".local/share").unwrap_or_else(std::env::temp_dir);
+        match example.file(&data) {
+            Ok(path) => self.open(&path),
+            Err(error) => self.say_error(error.to_string()),
+        }
+    }
+
     /// Takes what has happened since the last look, and renders what has changed.
     pub fn update(&mut self) {
         let before = self.document.loaded.clone();
@@ -150,7 +162,8 @@ impl Studio {
             }
             None => {}
         }
-        if self.document.has_changed()
+        let wake = self.waker();
+        if self.document.has_changed(wake)
             && let Some(path) = self.document.path.clone()
         {
             self.open(&path);
@@ -169,7 +182,7 @@ impl Studio {
             before.as_ref().is_some_and(|before| document::same_file(&before.path, &loaded.path));
         let merged = match (&before, &self.editable) {
             (Some(before), Some(editable)) if is_reloaded => {
-                merge(&before.editable, editable, &loaded.editable)
+                document::merge(&before.editable, editable, &loaded.editable)
             }
             _ => loaded.editable.clone(),
         };
@@ -186,13 +199,14 @@ impl Studio {
         } else {
             let stem = loaded.path.file_stem().unwrap_or_default().to_string_lossy();
             self.kept.knobs.image = format!("{stem}.png");
+            self.form.clear();
             self.kept.remember(&loaded.path);
             self.selected = None;
             self.notice = None;
         }
         // What was before belongs to another text.
         self.history = History::default();
-        self.form.clear();
+        self.form.clear_camera();
         self.selected = self.selected.filter(|&object| object < loaded.scene.desc.objects.len());
         self.editable = Some(Arc::new(merged));
         self.version += 1;
@@ -223,7 +237,7 @@ impl Studio {
         if let Some(other) = self.history.step(Arc::clone(editable), is_back) {
             *editable = other;
             self.version += 1;
-            self.form.clear();
+            self.form.clear_camera();
         }
     }
 
@@ -231,7 +245,7 @@ impl Studio {
     pub fn reset_camera(&mut self) {
         if let Some(loaded) = self.document.loaded.clone() {
             self.edit(|editable| editable.camera = loaded.editable.camera.clone());
-            self.form.clear();
+            self.form.clear_camera();
         }
     }
 
@@ -256,10 +270,10 @@ impl Studio {
     }
 
     fn key(&self) -> Option<(Key, [u32; 2])> {
-        let loaded = Arc::as_ptr(self.document.loaded.as_ref()?) as usize;
+        self.document.loaded.as_ref()?;
         let settings = self.preview_settings();
         let of = (settings.samples, settings.bounces, settings.accel, settings.precision, settings.sampler);
-        Some((Key { loaded, version: self.version, settings: of }, [settings.width, settings.height]))
+        Some((Key { version: self.version, settings: of }, [settings.width, settings.height]))
     }
 
     /// Renders a preview if it would differ from what was ordered last. A final render is left alone, and its picture stays
@@ -295,16 +309,15 @@ impl Studio {
         if self.is_rendering_final() {
             return;
         }
-        if let Some((field, error)) = self.form.wrong() {
+        if let Some((field, error)) = self.form.wrong(&self.kept.knobs) {
             return self.say_error(format!("{}: {error}", field.label()));
         }
         if let Err(error) = self.kept.knobs.check() {
             return self.say_error(error.to_string());
         }
+        self.form.set_refusal(None);
         let knobs = &self.kept.knobs;
-        let wanted =
-            Wanted { image: knobs.image.clone().into(), exposure: knobs.exposure, ..Wanted::default() };
-        if let Some(order) = self.order(knobs.settings(), Purpose::Final(wanted)) {
+        if let Some(order) = self.order(knobs.settings(), Purpose::Final(knobs.wanted())) {
             self.notice = None;
             self.ordered = self.key();
             self.is_final = true;
@@ -330,7 +343,10 @@ impl Studio {
         }
         self.told = status.job;
         match status {
-            Status { stage: Stage::Failed(why), .. } => self.say_error(why),
+            Status { stage: Stage::Failed(why), is_file_refused, .. } => {
+                self.form.set_refusal(is_file_refused.then(|| why.clone()));
+                self.say_error(why);
+            }
             Status { written: Some(path), .. } => self.say(format!("{} is written", path.display())),
             _ => {}
         }
@@ -357,7 +373,7 @@ impl Studio {
                     Tool::Focus => camera_control::focus(&mut editable.camera, point),
                     _ => camera_control::look_at(&mut editable.camera, point),
                 });
-                self.form.clear();
+                self.form.clear_camera();
             }
             _ => self.say("there is only sky".into()),
         }
@@ -407,9 +423,6 @@ impl Studio {
         if self.editable.as_ref().is_some_and(|now| **now == *editable) {
             self.editable = Some(saved);
         }
-        if let (Some(key), Some(ordered)) = (self.key(), &mut self.ordered) {
-            ordered.0.loaded = key.0.loaded;
-        }
     }
 
     /// Writes the picture that is shown to a file.
@@ -423,26 +436,46 @@ impl Studio {
 
     fn take_saved(&mut self) {
         let Some(saving) = &self.saving else { return };
-        match saving.try_recv() {
+        let saved = match saving.try_recv() {
             Err(TryRecvError::Empty) => return,
-            Err(TryRecvError::Disconnected) => self.say_error("the picture could not be written".into()),
-            Ok(Ok(path)) => self.say(format!("{} is written", path.display())),
-            Ok(Err(error)) => self.say_error(error),
-        }
+            saved => saved.ok(),
+        };
         self.saving = None;
+        self.take_saved_picture(saved);
     }
 
-    /// Ends what is under way, with its results written.
-    pub fn close(&mut self) {
+    fn take_saved_picture(&mut self, saved: Option<Result<PathBuf, String>>) {
+        match saved {
+            Some(Ok(path)) => self.say(format!("{} is written", path.display())),
+            Some(Err(error)) => self.say_error(error),
+            None => self.say_error("the picture could not be written".into()),
+        }
+    }
+
+    /// Ends what is under way, with its results written. Whether they are; else the notice says why not.
+    pub fn close(&mut self) -> bool {
+        self.notice = None;
         if self.is_rendering_final() {
             self.session.stop();
             self.session.wait();
+            self.tell_end();
         }
+        let of_render = self.take_error();
         self.finish_saving();
+        let of_scene = self.take_error();
         if let Some(saving) = self.saving.take() {
-            // What went wrong has no window left to be said in.
-            let _ = saving.recv();
+            self.take_saved_picture(saving.recv().ok());
         }
+        let of_picture = self.take_error();
+        let errors: Vec<String> = [of_render, of_scene, of_picture].into_iter().flatten().collect();
+        if !errors.is_empty() {
+            self.say_error(errors.join("\n"));
+        }
+        errors.is_empty()
+    }
+
+    fn take_error(&mut self) -> Option<String> {
+        self.notice.take_if(|notice| notice.is_error).map(|notice| notice.text)
     }
 
     /// Stores the picture to compare others with.
@@ -460,27 +493,4 @@ impl Studio {
     pub fn say_error(&mut self, text: String) {
         self.notice = Some(Notice { text, is_error: true });
     }
-}
-
-/// What the file says by now, with what was changed in the window since it was read before.
-fn merge(old: &Editable, edited: &Editable, new: &Editable) -> Editable {
-    let mut merged = new.clone();
-    if edited.camera != old.camera {
-        merged.camera = edited.camera.clone();
-    }
-    if edited.environment != old.environment {
-        merged.environment = edited.environment.clone();
-    }
-    if edited.rotation != old.rotation && new.rotation.is_some() {
-        merged.rotation = edited.rotation;
-    }
-    if old.surfaces.len() == new.surfaces.len() {
-        let all = merged.surfaces.iter_mut().zip(old.surfaces.iter().zip(&edited.surfaces));
-        for (merged, (old, edited)) in all {
-            if old != edited && merged.is_some() {
-                *merged = edited.clone();
-            }
-        }
-    }
-    merged
 }

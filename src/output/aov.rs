@@ -15,6 +15,17 @@ pub enum Aov {
 }
 
 impl Aov {
+    /// All of them.
+    pub const ALL: [Aov; 7] = [
+        Aov::Feature(FeatureKind::Albedo),
+        Aov::Feature(FeatureKind::Normal),
+        Aov::Feature(FeatureKind::Depth),
+        Aov::Feature(FeatureKind::Position),
+        Aov::Feature(FeatureKind::Object),
+        Aov::Samples,
+        Aov::Error,
+    ];
+
     /// The name on the command line.
     pub const fn name(self) -> &'static str {
         match self {

@@ -82,10 +82,15 @@ impl Format {
         let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
         let found = EXTENSIONS.iter().find(|(name, _)| *name == extension);
         found.map(|&(_, format)| format).ok_or_else(|| {
-            let known: Vec<String> = EXTENSIONS.iter().map(|(name, _)| format!(".{name}")).collect();
-            let known = known.join(", ");
+            let known = Format::extensions();
             Error::Usage(format!("the picture {} has no known extension; known are {known}", path.display()))
         })
+    }
+
+    /// All extensions: `.png, .exr` and so on.
+    pub fn extensions() -> String {
+        let known: Vec<String> = EXTENSIONS.iter().map(|(name, _)| format!(".{name}")).collect();
+        known.join(", ")
     }
 
     fn row(self) -> &'static Row {
@@ -120,6 +125,9 @@ impl Format {
 }
 
 impl Depth {
+    /// All of them.
+    pub const ALL: [Depth; 4] = [Depth::Eight, Depth::Sixteen, Depth::Half, Depth::Float];
+
     /// The name on the command line and in pictures.
     pub const fn name(self) -> &'static str {
         match self {

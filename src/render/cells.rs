@@ -6,6 +6,7 @@ use crate::film::file::Reader;
 use crate::film::{Greys, HALVES, Sums};
 use crate::math::Rgb;
 use crate::sampling::{SCRAMBLES, Scrambles};
+use rayon::prelude::*;
 use std::ops::Range;
 
 /// One cell a pixel, in the order of the render's [`Frame`](crate::film::Frame).
@@ -140,7 +141,7 @@ impl Cells {
     /// What the film keeps.
     pub(super) fn into_sums(self) -> Sums {
         let Cells { samples, layout, first, scrambles, .. } = self;
-        let cells = || self.values.chunks_exact(layout.stride());
+        let cells = || self.values.par_chunks_exact(layout.stride());
         let half = |half: usize| cells().map(|cell| layout.radiance(cell)[half]).collect();
         if let Layout::Plain(scramble) = layout {
             return Sums::of_scramble(scramble, samples, half(0));

@@ -29,7 +29,7 @@ where
 {
     let mut chunks = Chunks::new(settings, watch, sample, state)?;
     let ended = chunks.take_all()?;
-    let render_seconds = chunks.pace.elapsed();
+    let render_seconds = chunks.elapsed();
     let error = chunks.error();
     let error_sums = chunks.error_pixels.iter().flat_map(ErrorPixels::numbers).collect();
     let Chunks { film, work, .. } = chunks;
@@ -213,7 +213,7 @@ where
     /// Adds samples to all pixels; false if cancelled or if the time is up, which leaves the sums unusable.
     fn pass(&mut self, samples: Range<u64>, cells: &mut Cells) -> bool {
         let scrambles = self.settings.scrambles();
-        let (count, start) = (samples.end - samples.start, self.pace.elapsed());
+        let (count, start) = (samples.end - samples.start, self.elapsed());
         // Later the picture's own scrambles tell its error.
         let error_pixels = self.error_pixels.as_ref().filter(|_| samples.start < scrambles.first_round());
         let (clamp, blocks) = (self.settings.clamp, self.blocks.as_ref());
@@ -244,10 +244,15 @@ where
         if let (Some(pixels), Some(sets)) = (&mut self.error_pixels, sets) {
             pixels.keep(sets);
         }
-        self.pace.learn(work.samples, self.pace.elapsed() - start);
+        self.pace.learn(work.samples, self.elapsed() - start);
         self.work += work;
         cells.samples += count;
         true
+    }
+
+    /// Seconds since the start, but for pauses.
+    fn elapsed(&self) -> f64 {
+        (self.pace.elapsed() - self.watch.paused().as_secs_f64()).max(0.0)
     }
 
     /// The pixels that take samples.

@@ -57,7 +57,8 @@ impl FeatureKind {
     }
 }
 
-/// Collects `samples(pixel)` samples of every pixel, by its number in the frame, or one of each pixel that is left when it is cancelled;
+/// Collects `samples(pixel)` samples of every pixel, by its number in the frame, at most one of each pixel that is left when it
+/// is cancelled;
 /// `feature(x, y, index)` finds one.
 pub(super) fn collect<F>(
     settings: &Settings,
@@ -78,6 +79,40 @@ where
         }
     });
     Ok(FeaturePlanes { pixels })
+}
+
+/// Rows that [`look`] takes at once: few enough to stay in the processor's caches, and to be soon at an end.
+const BAND: u32 = 16;
+
+/// Sees the first sample of every pixel, some rows at once from the top, each of which `take` gets. Whether it got all of them:
+/// not if it is cancelled.
+pub(super) fn look<F>(
+    settings: &Settings,
+    watch: &dyn Watch,
+    feature: F,
+    take: &mut (dyn FnMut(&FeaturePlanes) + Send),
+) -> bool
+where
+    F: Fn(u32, u32, u64) -> Features + Sync,
+{
+    let Settings { width, height, .. } = *settings;
+    let first = settings.scrambles().place(0).sample_index();
+    let row = width as usize;
+    let mut planes = FeaturePlanes { pixels: Vec::new() };
+    for top in (0..height).step_by(BAND as usize) {
+        let bottom = height.min(top + BAND);
+        let see = |pixel: usize| match watch.cancelled() {
+            true => Features::default(),
+            false => feature((pixel % row) as u32, (pixel / row) as u32, first),
+        };
+        let pixels = top as usize * row..bottom as usize * row;
+        pixels.into_par_iter().map(see).collect_into_vec(&mut planes.pixels);
+        if watch.cancelled() {
+            return false;
+        }
+        take(&planes);
+    }
+    true
 }
 
 /// Numbers of a pixel's features that are no integers.

@@ -8,7 +8,7 @@ use crate::accel::embree::Embree;
 use crate::accel::{Accelerator, BuildOptions};
 use crate::error::Result;
 use crate::geometry::Geometry;
-use crate::integrator::{Counters, FeatureTracer, Features, PathTracer};
+use crate::integrator::{Counters, FeatureTracer, PathTracer};
 use crate::sampling::{Independent, Sampler, SamplerKind, Sobol};
 use crate::scene::desc::CameraDesc;
 use crate::world::World;
@@ -59,11 +59,6 @@ impl<'g> Prepared<'g> {
         std::ptr::eq(self.geometry, &*world.geometry) && with(settings) == with(&self.settings)
     }
 
-    /// Seconds that the building took.
-    pub fn build_seconds(&self) -> f64 {
-        self.build_seconds
-    }
-
     /// As [`render`](super::render()). The world's shapes must be those of the accelerator: see [`Prepared::fits`].
     pub fn render(
         &self,
@@ -94,21 +89,22 @@ impl<'g> Prepared<'g> {
         Ok(Rendered { build_seconds: self.build_seconds, ..rendered })
     }
 
-    /// What is seen without the light, from `samples` samples a pixel. Pixels that are left when it is cancelled stay empty.
+    /// Sees the first sample of every pixel without its light, some rows at once from the top, each of which `take` gets.
+    /// Whether it got all of them: not if it is cancelled.
     pub fn look(
         &self,
         world: &World,
         camera: &CameraDesc,
         settings: &Settings,
-        samples: u64,
         watch: &dyn Watch,
-    ) -> Result<FeaturePlanes> {
+        take: &mut (dyn FnMut(&FeaturePlanes) + Send),
+    ) -> Result<bool> {
         settings.check()?;
         let run = Run { world, camera, settings, watch };
         in_pool(settings, || match &self.accelerator {
             #[cfg(feature = "embree")]
-            Built::Embree(accelerator) => run.look(accelerator, samples),
-            Built::Native(accelerator) => run.look(accelerator, samples),
+            Built::Embree(accelerator) => Ok(run.look(accelerator, take)),
+            Built::Native(accelerator) => Ok(run.look(accelerator, take)),
         })
     }
 }
@@ -163,21 +159,11 @@ impl Run<'_> {
         Ok(Rendered { features: Some(features), ended, render_seconds, ..rendered })
     }
 
-    fn look<A: Accelerator>(&self, accelerator: &A, samples: u64) -> Result<FeaturePlanes> {
+    fn look<A: Accelerator>(&self, accelerator: &A, take: &mut (dyn FnMut(&FeaturePlanes) + Send)) -> bool {
         let camera = self.world.camera(self.camera, self.settings.width, self.settings.height);
         let tracer = FeatureTracer { world: self.world, camera: &camera, accelerator };
         let sampler = Sobol::new(self.settings.seed);
-        features::collect(
-            self.settings,
-            self.watch,
-            |_| samples,
-            |x, y, index| {
-                if self.watch.cancelled() {
-                    Features::default()
-                } else {
-                    tracer.sample(&sampler, x, y, index)
-                }
-            },
-        )
+        let see = |x, y, index| tracer.sample(&sampler, x, y, index);
+        features::look(self.settings, self.watch, see, take)
     }
 }

@@ -173,36 +173,8 @@ impl Recipe {
 
     /// The command line, without the program's name, that makes these sums again, as a file `file`.
     pub fn arguments(&self, file: &str) -> Vec<String> {
-        let Recipe { width, height, samples, bounces, .. } = self;
-        let mut words = vec![self.scene.clone()];
-        words.extend([width.to_string(), height.to_string(), samples.to_string(), bounces.to_string()]);
-        words.push(file.to_owned());
-        words.extend(self.region.option().into_iter().flatten());
-        words.extend(
-            self.chunks.iter().flat_map(|[start, end]| ["--chunks".into(), format!("{start}..{end}")]),
-        );
-        words.extend(self.options());
+        let mut words = self.settings().arguments(&self.scene, file);
+        words.extend(self.features.then(|| ["--aov".to_owned(), "albedo".to_owned()]).into_iter().flatten());
         words
-    }
-
-    /// The options that differ from their defaults.
-    fn options(&self) -> Vec<String> {
-        let defaults = Settings::new(1, 1, 1, 1);
-        let all: [(&str, Option<String>); 12] = [
-            ("--seed", (self.seed != defaults.seed).then(|| self.seed.to_string())),
-            ("--sampler", (self.sampler != defaults.sampler).then(|| self.sampler.to_string())),
-            ("--light-sampling", (!self.light_sampling).then(|| "off".to_owned())),
-            ("--clamp", self.clamp.map(|limit| limit.to_string())),
-            ("--noise", self.noise.map(|target| target.to_string())),
-            ("--scramble-length", self.scramble_length.map(|length| length.to_string())),
-            ("--error-estimate", (!self.error_estimate).then(|| "off".to_owned())),
-            ("--precision", (self.precision != defaults.precision).then(|| self.precision.name().to_owned())),
-            ("--accel", self.accelerator.map(|accel| accel.name().to_owned())),
-            ("--isa", self.isa.map(|isa| isa.name().to_owned())),
-            ("--bvh", self.tree.map(|tree| tree.name().to_owned())),
-            ("--aov", self.features.then(|| "albedo".to_owned())),
-        ];
-        let given = all.into_iter().filter_map(|(option, value)| Some([option.to_owned(), value?]));
-        given.flatten().collect()
     }
 }

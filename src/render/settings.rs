@@ -95,6 +95,47 @@ impl Settings {
         }
     }
 
+    /// The command line, without the program's name, that renders the scene in `scene` with these settings into the file
+    /// `image`, but for the features; of machines and threads it says nothing.
+    pub fn arguments(&self, scene: &str, image: &str) -> Vec<String> {
+        let Settings { width, height, samples, bounces, .. } = self;
+        let mut words = vec![scene.to_owned()];
+        words.extend([width.to_string(), height.to_string(), samples.to_string(), bounces.to_string()]);
+        words.push(image.to_owned());
+        words.extend(self.region.option().into_iter().flatten());
+        words.extend(
+            self.chunks
+                .iter()
+                .flat_map(|chunks| ["--chunks".into(), format!("{}..{}", chunks.start, chunks.end)]),
+        );
+        words.extend(self.options());
+        words
+    }
+
+    /// The options that differ from their defaults. Where accelerators differ, the accelerator is named in any case: the
+    /// default is that of the build.
+    fn options(&self) -> Vec<String> {
+        let defaults = Settings::new(1, 1, 1, 1);
+        let is_inexact = self.precision != defaults.precision;
+        let accel = (is_inexact || self.accel != defaults.accel).then(|| self.accel.name().to_owned());
+        let all: [(&str, Option<String>); 12] = [
+            ("--seed", (self.seed != defaults.seed).then(|| self.seed.to_string())),
+            ("--sampler", (self.sampler != defaults.sampler).then(|| self.sampler.to_string())),
+            ("--light-sampling", (!self.light_sampling).then(|| "off".to_owned())),
+            ("--clamp", self.clamp.map(|limit| limit.to_string())),
+            ("--noise", self.noise.map(|target| target.to_string())),
+            ("--time", self.time.map(|time| time.as_secs_f64().to_string())),
+            ("--scramble-length", self.scramble_length.map(|length| length.to_string())),
+            ("--error-estimate", (!self.error_estimate).then(|| "off".to_owned())),
+            ("--precision", is_inexact.then(|| self.precision.name().to_owned())),
+            ("--accel", accel),
+            ("--isa", self.isa.map(|isa| isa.name().to_owned())),
+            ("--bvh", (self.bvh != defaults.bvh).then(|| self.bvh.name().to_owned())),
+        ];
+        let given = all.into_iter().filter_map(|(option, value)| Some([option.to_owned(), value?]));
+        given.flatten().collect()
+    }
+
     /// How the samples of a pixel are spread over its scrambles.
     pub fn scrambles(&self) -> Scrambles {
         let chosen = match self.sampler {

@@ -3,6 +3,7 @@
 use super::cells::Cells;
 use crate::film::Film;
 use crate::math::Rgb;
+use rayon::prelude::*;
 
 /// The picture after a pass.
 #[derive(Clone, Copy)]
@@ -34,6 +35,6 @@ impl<'r> SoFar<'r> {
         let Some(cells) = self.cells else { return means.extend(self.film.means()) };
         let weight = 1.0 / self.samples().max(1) as f64;
         let mean = |pixel| self.film.sum_after(Some(cells.sum(pixel)), pixel) * weight;
-        means.extend((0..self.film.pixels()).map(mean));
+        (0..self.film.pixels()).into_par_iter().map(mean).collect_into_vec(means);
     }
 }

@@ -72,7 +72,7 @@ impl SamplerKind {
     pub const ALL: [SamplerKind; 2] = [SamplerKind::Sobol, SamplerKind::Independent];
 
     /// The name on the command line and in metadata.
-    pub fn name(self) -> &'static str {
+    pub const fn name(self) -> &'static str {
         match self {
             SamplerKind::Sobol => "sobol",
             SamplerKind::Independent => "independent",

@@ -82,7 +82,7 @@ fn libraries(
                 return None;
             }
         };
-        context.meshes.add_digest(&bytes);
+        context.meshes.add_file(file.clone(), &bytes);
         let library = Library::parse(&bytes);
         let is_good = library.faults.is_empty();
         library.faults.into_iter().for_each(|fault| report_fault(fault, &file, value, context.report));

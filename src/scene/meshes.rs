@@ -22,13 +22,15 @@ pub(crate) struct Meshes {
     pub(crate) parts: HashMap<*const MeshDesc, Option<Vec<Part>>>,
     /// Of every file that was read, in the order in which the scene names them first.
     digests: Vec<Digest>,
+    /// The files that were read, and those of materials.
+    files: Vec<PathBuf>,
 }
 
 impl Meshes {
     /// The meshes named in the scene file `file`.
     pub(crate) fn beside(file: &Path) -> Meshes {
         let folder = file.parent().unwrap_or(Path::new("")).to_path_buf();
-        Meshes { folder, read: HashMap::new(), parts: HashMap::new(), digests: Vec::new() }
+        Meshes { folder, read: HashMap::new(), parts: HashMap::new(), digests: Vec::new(), files: Vec::new() }
     }
 
     /// Of all files that were read.
@@ -36,9 +38,15 @@ impl Meshes {
         &self.digests
     }
 
-    /// Adds the content of another file that was read.
-    pub(crate) fn add_digest(&mut self, bytes: &[u8]) {
+    /// All files that were read.
+    pub(crate) fn files(&self) -> &[PathBuf] {
+        &self.files
+    }
+
+    /// Adds another file that was read.
+    pub(crate) fn add_file(&mut self, path: PathBuf, bytes: &[u8]) {
         self.digests.push(Digest::of(bytes));
+        self.files.push(path);
     }
 
     /// The mesh that the `Filepath` in `value` names, and the file that was found.
@@ -51,6 +59,7 @@ impl Meshes {
             None => {
                 let mesh = read(&path, value, report).map(|(mesh, digest)| {
                     self.digests.push(digest);
+                    self.files.push(path.clone());
                     Arc::new(mesh)
                 });
                 self.read.insert(key, mesh.clone());

@@ -28,9 +28,10 @@ use meshes::Meshes;
 use pictures::Pictures;
 use read::Context;
 use source::Source;
+use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{self, Read};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// A scene that can be rendered.
 #[derive(Clone, Debug)]
@@ -41,6 +42,8 @@ pub struct Scene {
     pub warnings: Vec<Diagnostic>,
     /// Of the file and all that it names.
     pub digest: Digest,
+    /// All that was read beside the scene file: meshes, their materials, pictures. Ascending, each once.
+    pub files: Vec<PathBuf>,
 }
 
 /// Reads the scene file at `path` and the meshes that it names.
@@ -120,7 +123,11 @@ fn read_text(text: &str, file: &Path) -> Result<Scene> {
     let renderable = report.is_renderable();
     let diagnostics = report.into_diagnostics(&source);
     match desc {
-        Some(desc) if renderable => Ok(Scene { desc, warnings: diagnostics, digest }),
+        Some(desc) if renderable => {
+            let files: BTreeSet<&PathBuf> = meshes.files().iter().chain(pictures.files()).collect();
+            let files = files.into_iter().cloned().collect();
+            Ok(Scene { desc, warnings: diagnostics, digest, files })
+        }
         _ => Err(Error::Scene(diagnostics)),
     }
 }

@@ -18,18 +18,25 @@ pub(crate) struct Pictures {
     read: HashMap<PathBuf, Option<Arc<Decoded>>>,
     /// Of every file that was read, in the order in which the scene names them first.
     digests: Vec<Digest>,
+    /// The files that were read.
+    files: Vec<PathBuf>,
 }
 
 impl Pictures {
     /// The pictures named in the scene file `file`.
     pub(crate) fn beside(file: &Path) -> Pictures {
         let folder = file.parent().unwrap_or(Path::new("")).to_path_buf();
-        Pictures { folder, read: HashMap::new(), digests: Vec::new() }
+        Pictures { folder, read: HashMap::new(), digests: Vec::new(), files: Vec::new() }
     }
 
     /// Of all files that were read.
     pub(crate) fn digests(&self) -> &[Digest] {
         &self.digests
+    }
+
+    /// All files that were read.
+    pub(crate) fn files(&self) -> &[PathBuf] {
+        &self.files
     }
 
     /// The picture that `value` names. `encoded` says whether its values are sRGB-encoded; `None`: as its type tells.
@@ -58,6 +65,7 @@ impl Pictures {
         let picture = self.read.entry(key).or_insert_with(|| match read(path) {
             Ok((picture, digest)) => {
                 self.digests.push(digest);
+                self.files.push(path.to_path_buf());
                 Some(Arc::new(picture))
             }
             Err(error) => {

@@ -81,8 +81,6 @@ pub struct Leak {
     pub lost: u64,
 }
 
-const PRECISIONS: [Precision; 3] = [Precision::Exact, Precision::Robust, Precision::Fast];
-
 /// Bytes that measuring takes, at most, for a mesh of so many triangles: the mesh in f64 and f32, and all accelerators at
 /// once, each while it is built.
 pub fn memory_bytes(triangles: usize) -> u64 {
@@ -170,7 +168,7 @@ fn measure<'g>(
     pools: &Pools,
 ) -> Result<(Rung, Vec<Contender<'g>>)> {
     let sets: Vec<RaySet> = sets.iter().filter(|set| !set.queries.is_empty()).cloned().collect();
-    let kinds = Kind::all(&PRECISIONS);
+    let kinds = Kind::all(&Precision::ALL);
     let contenders = contender::build(&kinds, geometry, options.isa, pools, options.rounds)?;
     let rates = contender::measure(&contenders, &sets, pools, options.rounds);
     // Geometric means by thread count, contender and round.

@@ -1,11 +1,9 @@
 //! What the window costs: prints, and asserts nothing.
 
-use super::panels::Window;
+use super::panels::window_of;
 use super::studio::until;
 use super::{SCENES, load, preview, sample, session};
-use egui_kittest::Harness;
 use pathtracer::gui::camera_control;
-use pathtracer::gui::panels;
 use pathtracer::gui::settings::{Kept, Knobs};
 use pathtracer::gui::studio::Studio;
 use pathtracer::render::Settings;
@@ -62,10 +60,7 @@ fn a_frame_of_the_window_while_all_cores_render() {
         until(&mut studio, "a picture", |studio| {
             studio.session.frame().is_some_and(|frame| !frame.is_coarse)
         });
-        let mut window: Window<'_> = Harness::builder().with_size([1280.0, 800.0]).build_ui_state(
-            |ui, (studio, desk): &mut (Studio, panels::Desk)| desk.show(ui, studio),
-            (studio, panels::Desk::default()),
-        );
+        let mut window = window_of(studio, 1.0);
         let times: Vec<Duration> = (0..200)
             .map(|_| {
                 let start = Instant::now();

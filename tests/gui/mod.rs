@@ -1,5 +1,8 @@
+mod canvas;
 mod edit;
+mod examples;
 mod measure;
+mod menus;
 mod panels;
 mod previews;
 mod settings;

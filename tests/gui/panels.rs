@@ -8,17 +8,34 @@ use pathtracer::gui::display::View;
 use pathtracer::gui::panels;
 use pathtracer::gui::pick::Tool;
 use pathtracer::gui::studio::Studio;
+use std::time::{Duration, Instant};
 
 /// The widgets of a window without a display.
 pub(super) type Window<'w> = Harness<'w, (Studio, panels::Desk)>;
 
 pub(super) fn window<'w>(desk: &Desk) -> Window<'w> {
-    let mut window = Harness::builder().with_size([1280.0, 800.0]).build_ui_state(
+    window_of(opened(desk), 1.0)
+}
+
+/// One whose points have so many pixels.
+pub(super) fn window_of<'w>(studio: Studio, scale: f32) -> Window<'w> {
+    let builder = Harness::builder().with_size([1280.0, 800.0]).with_pixels_per_point(scale);
+    let mut window = builder.build_ui_state(
         |ui, (studio, desk): &mut (Studio, panels::Desk)| desk.show(ui, studio),
-        (opened(desk), panels::Desk::default()),
+        (studio, panels::Desk::default()),
     );
     window.run_steps(3);
     window
+}
+
+/// Goes on until a widget with this label is there.
+#[track_caller]
+pub(super) fn wait_for_label(window: &mut Window<'_>, label: &str) {
+    let start = Instant::now();
+    while window.query_by_label(label).is_none() {
+        assert!(start.elapsed() < Duration::from_secs(60), "waited in vain for {label}");
+        window.step();
+    }
 }
 
 fn press(window: &mut Window<'_>, key: Key) {
@@ -71,6 +88,24 @@ fn a_wrong_value_is_marked_at_its_field_with_the_reason() {
     fill(&mut window, "Bounces", "5");
     assert!(window.query_by_label("expected a whole number from 1 to 65536").is_none());
     assert_eq!(window.state().0.kept.knobs.bounces, 5);
+}
+
+#[test]
+fn a_bad_name_of_the_picture_and_no_end_of_the_samples_are_marked_at_their_fields() {
+    let desk = Desk::new();
+    let mut window = window(&desk);
+    fill(&mut window, "File", "picture.gif");
+    window.get_by_label_contains("expected a name that ends in .png");
+    assert_eq!(window.state().0.kept.knobs.image, "balls.png");
+    fill(&mut window, "File", "picture.png");
+    fill(&mut window, "Samples", "0");
+    window.get_by_label("0 needs a noise target or a time budget");
+    press(&mut window, Key::Enter);
+    assert!(!window.state().0.is_final());
+    fill(&mut window, "Noise target", "0.05");
+    assert!(window.query_by_label("0 needs a noise target or a time budget").is_none());
+    let knobs = &window.state().0.kept.knobs;
+    assert_eq!((knobs.image.as_str(), knobs.samples, knobs.noise), ("picture.png", 0, Some(0.05)));
 }
 
 #[test]
@@ -144,6 +179,23 @@ fn a_selected_object_shows_its_material_and_a_slider_changes_it() {
 }
 
 #[test]
+fn the_picture_keeps_its_place_when_an_object_is_selected_and_when_a_field_is_wrong() {
+    let desk = Desk::new();
+    let mut window = window(&desk);
+    let place = |window: &Window<'_>| window.state().1.canvas.place.expect("a place");
+    let before = place(&window);
+    for object in 0..3 {
+        window.state_mut().0.selected = Some(object);
+        window.run_steps(3);
+        assert_eq!(place(&window), before, "object {object}");
+    }
+    fill(&mut window, "File", "picture.gif");
+    fill(&mut window, "Samples", "many");
+    window.run_steps(2);
+    assert_eq!(place(&window), before);
+}
+
+#[test]
 fn errors_of_the_scene_are_shown_with_their_lines() {
     let desk = Desk::new();
     let mut window = window(&desk);
@@ -178,6 +230,7 @@ fn an_open_dialog_lists_scenes_and_opens_one() {
     let mut window = window(&desk);
     window.key_press_modifiers(Modifiers::COMMAND, Key::O);
     window.run_steps(3);
+    wait_for_label(&mut window, "other.yaml");
     window.get_by_label("other.yaml").click();
     window.run_steps(2);
     window.get_by_label("Open").click();

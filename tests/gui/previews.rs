@@ -2,11 +2,14 @@ use super::{BALLS, Desk, load, preview, sample, session, small};
 use crate::support::random::Random;
 use pathtracer::gui::camera_control;
 use pathtracer::gui::saving;
-use pathtracer::gui::session::{Order, Purpose, Stage};
+use pathtracer::gui::session::{Frame, Order, Purpose, Stage};
 use pathtracer::math::Rgb;
 use pathtracer::output::Wanted;
-use pathtracer::render::{Ended, Settings};
+use pathtracer::render::{Ended, SCRAMBLE_LENGTH, Settings};
+use pathtracer::sampling::SamplerKind;
 use pathtracer::scene::edit::{self, Editable};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 /// Moves the camera, a colour or the light of the scene `BALLS`.
 fn change(editable: &mut Editable, random: &mut Random) {
@@ -121,16 +124,60 @@ fn a_pause_holds_a_render_and_changes_nothing() {
     let desk = Desk::new();
     let loaded = load(&desk.path("balls.yaml"));
     let session = session();
-    let order = preview(&loaded, &loaded.editable, &Settings { samples: 32, ..small() });
-    session.order(order);
+    // With one thread nothing goes on once the pause is told.
+    let settings = Settings { threads: Some(1), samples: 1 << 20, ..small() };
+    session.order(preview(&loaded, &loaded.editable, &settings));
+    session.wait_for(2);
     session.pause(true);
-    assert!(session.is_paused());
+    let (status, frame) = (session.wait_for_pause(), session.frame().expect("a picture"));
+    assert_eq!(status.stage, Stage::Paused);
+    assert!(session.is_paused() && status.is_busy());
+    saving::write(&frame, &desk.path("window.png"), 0.0).expect("a picture that can be written");
+    // This takes longer than many passes.
+    let expected = desk.by_command_line("balls.yaml", &settings, frame.samples, "line.png");
+    assert!(desk.read("window.png") == expected, "{} samples", frame.samples);
+    assert_eq!(session.status(), status);
+    assert!(Arc::ptr_eq(&session.frame().expect("a picture"), &frame));
     session.pause(false);
-    let status = session.wait();
-    assert_eq!(status.stage, Stage::Done(Ended::Complete));
+    session.wait_for(2 * frame.samples);
+    session.stop();
+    assert_eq!(session.wait().stage, Stage::Done(Ended::Cancelled));
     let frame = session.frame().expect("a picture");
     saving::write(&frame, &desk.path("window.png"), 0.0).expect("a picture that can be written");
-    assert!(desk.read("window.png") == desk.by_command_line("balls.yaml", &small(), 32, "line.png"));
+    let expected = desk.by_command_line("balls.yaml", &settings, frame.samples, "line.png");
+    assert!(desk.read("window.png") == expected, "{} samples", frame.samples);
+}
+
+#[test]
+fn the_time_of_every_pause_is_left_out() {
+    let desk = Desk::new();
+    let loaded = load(&desk.path("balls.yaml"));
+    let session = session();
+    let settings = Settings { threads: Some(1), samples: 1 << 20, ..small() };
+    let start = Instant::now();
+    session.order(preview(&loaded, &loaded.editable, &settings));
+    let mut held = Duration::ZERO;
+    for _ in 0..3 {
+        session.wait_for(1);
+        session.pause(true);
+        assert_eq!(session.wait_for_pause().stage, Stage::Paused);
+        let since = Instant::now();
+        desk.command(&["check", "balls.yaml"]);
+        held += since.elapsed();
+        session.pause(false);
+    }
+    session.stop();
+    let (status, all) = (session.wait(), start.elapsed());
+    assert!(status.seconds > 0.0);
+    let most = (all - held).as_secs_f64();
+    assert!(status.seconds <= most, "{} s of {all:?}, {held:?} held", status.seconds);
+}
+
+#[test]
+fn a_pause_without_a_render_is_none() {
+    let session = session();
+    session.pause(true);
+    assert!(!session.is_paused());
 }
 
 #[test]
@@ -155,28 +202,57 @@ fn an_order_that_cannot_be_says_why_and_the_next_one_is_taken() {
     assert_eq!(session.wait().stage, Stage::Done(Ended::Complete));
 }
 
-#[test]
-fn the_error_that_is_shown_is_near_the_error() {
-    // Of a picture of 128 samples the map that halves tell is compared with a picture of eight times as many.
+/// The mean square of the relative errors that many small pictures show by that of those that they have, and the standard
+/// error of this ratio. Their scrambles are too long to tell it, so halves of the samples do.
+fn told_by_true(sampler: SamplerKind) -> [f64; 2] {
+    const PICTURES: u64 = 24;
     let loaded = load(&sample("cornellBox"));
     let session = session();
-    let of = |samples: u64, seed: u64| {
-        let settings = Settings { samples, seed, ..small() };
-        session.order(preview(&loaded, &loaded.editable, &settings));
-        session.wait();
-        session.frame().expect("a picture")
-    };
-    let (rough, fine) = (of(128, 0), of(1024, 1));
-    let mean_square = |values: &mut dyn Iterator<Item = f64>| {
-        let (sum, count) = values.fold((0.0, 0.0), |(sum, count), x| (sum + x * x, count + 1.0));
-        sum / count
-    };
-    let pixels = 0..rough.light.len();
-    let told = mean_square(&mut pixels.clone().map(|pixel| f64::from(rough.error(pixel).expect("an error"))));
-    let grey = |light: Rgb| light.element_sum() / 3.0;
-    let true_error = mean_square(&mut pixels.map(|pixel| grey(rough.light[pixel]) - grey(fine.light[pixel])));
-    // Pairs of Sobol points that halve the error better than chance tell too much of it; factors are of squares, over 1296
-    // pixels of one degree of freedom each, whose relative spread is (2 / 1296)^0.5 = 4 % times the spread of their sizes.
-    let ratio = told / true_error;
-    assert!((0.3..8.0).contains(&ratio), "{ratio}");
+    let frames: Vec<Arc<Frame>> = (0..PICTURES)
+        .map(|seed| {
+            let settings =
+                Settings { samples: 32, seed, sampler, scramble_length: Some(SCRAMBLE_LENGTH), ..small() };
+            session.order(preview(&loaded, &loaded.editable, &settings));
+            session.wait();
+            session.frame().expect("a picture")
+        })
+        .collect();
+    let pixels = frames[0].light.len();
+    let grey = |frame: &Frame, pixel: usize| frame.light[pixel].element_sum() / 3.0;
+    let means: Vec<f64> = (0..pixels)
+        .map(|pixel| frames.iter().map(|frame| grey(frame, pixel)).sum::<f64>() / PICTURES as f64)
+        .collect();
+    let (mut told, mut real) = ([0.0; 2], [0.0; 2]);
+    for frame in &frames {
+        for (pixel, mean) in means.iter().enumerate() {
+            let error = f64::from(frame.error(pixel).expect("an error"));
+            // The mean of all pictures holds a share of this one.
+            let square = (grey(frame, pixel) - mean).powi(2) * PICTURES as f64 / (PICTURES - 1) as f64;
+            // As the map weighs them, so that the edge of the lamp does not outweigh everything.
+            let weight = 1.0 / (mean * mean + 0.01);
+            for (sums, square) in [(&mut told, weight * error * error), (&mut real, weight * square)] {
+                sums[0] += square;
+                sums[1] += square * square;
+            }
+        }
+    }
+    let ratio = told[0] / real[0];
+    // The variance of a sum of independent squares is at most the expected sum of their squares.
+    let relative = |[sum, squares]: [f64; 2]| squares / (sum * sum);
+    [ratio, ratio * (relative(told) + relative(real)).sqrt()]
+}
+
+#[test]
+fn the_error_that_is_shown_is_the_error_where_samples_are_independent() {
+    // Half of the difference of two halves has then exactly the variance of their mean.
+    let [ratio, error] = told_by_true(SamplerKind::Independent);
+    assert!(error < 0.1 && (ratio - 1.0).abs() < 4.0 * error, "{ratio} +- {error}");
+}
+
+#[test]
+fn the_error_that_is_shown_is_not_below_the_error_where_points_spread_well() {
+    // The halves of a Sobol sequence make up for each other's gaps: the error falls faster than with the root of the
+    // samples, so half of their difference is more than the error of the whole.
+    let [ratio, error] = told_by_true(SamplerKind::Sobol);
+    assert!(error < 0.4 && ratio > 1.0 - 4.0 * error && ratio < 4.0, "{ratio} +- {error}");
 }

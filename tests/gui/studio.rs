@@ -4,7 +4,12 @@ use pathtracer::gui::pick::Tool;
 use pathtracer::gui::session::Stage;
 use pathtracer::gui::settings::{Kept, Knobs};
 use pathtracer::gui::studio::Studio;
-use pathtracer::render::{AccelKind, Ended};
+use pathtracer::output::Aov;
+use pathtracer::picture::Depth;
+use pathtracer::render::{AccelKind, Ended, FeatureKind};
+use pathtracer::scene::desc::MaterialKind;
+use std::fs;
+use std::path::Path;
 use std::sync::Arc;
 use std::thread;
 use std::time::{Duration, Instant};
@@ -86,7 +91,7 @@ fn a_file_that_was_changed_elsewhere_is_not_overwritten() {
     studio.finish_saving();
     let notice = studio.notice.clone().expect("a notice");
     assert!(notice.is_error && notice.text.contains("has changed since it was read"), "{notice:?}");
-    assert_eq!(std::fs::read_to_string(desk.path("balls.yaml")).expect("a file"), mistaken);
+    assert_eq!(fs::read_to_string(desk.path("balls.yaml")).expect("a file"), mistaken);
     // Elsewhere it may go.
     studio.save_scene(Some(&desk.path("other.yaml")));
     studio.finish_saving();
@@ -188,6 +193,87 @@ fn a_final_render_that_cannot_be_written_says_why() {
     until(&mut studio, "a message", |studio| studio.notice.as_ref().is_some_and(|notice| notice.is_error));
     let text = studio.notice.clone().expect("a message").text;
     assert!(text.contains("has no known extension"), "{text}");
+    assert_eq!(studio.form.error(Field::File, &studio.kept.knobs), Some(text));
+}
+
+#[test]
+fn a_file_that_cannot_be_written_is_marked_until_it_can() {
+    let desk = Desk::new();
+    let mut studio = opened(&desk);
+    studio.kept.knobs.image = desk.path("out/picture.png").to_string_lossy().into_owned();
+    studio.render();
+    until(&mut studio, "a message", |studio| studio.notice.as_ref().is_some_and(|notice| notice.is_error));
+    assert!(
+        studio.form.error(Field::File, &studio.kept.knobs).is_some_and(|why| why.starts_with("cannot write"))
+    );
+    fs::create_dir(desk.path("out")).expect("a folder");
+    studio.render();
+    until(&mut studio, "a file", |studio| studio.session.status().written.is_some());
+    assert_eq!(studio.form.error(Field::File, &studio.kept.knobs), None);
+}
+
+#[test]
+fn a_picture_that_cannot_be_written_when_the_window_closes_is_kept_as_a_film() {
+    let desk = Desk::new();
+    let mut studio = opened(&desk);
+    studio.kept.knobs.image = desk.path("window.png").to_string_lossy().into_owned();
+    studio.kept.knobs.samples = 1 << 20;
+    studio.render();
+    studio.session.wait_for(2);
+    // What comes in its way stands there as a folder.
+    fs::create_dir(desk.path("window.png")).expect("a folder");
+    assert!(!studio.close(), "the window must not close");
+    let samples = studio.session.frame().expect("a picture").samples;
+    let notice = studio.notice.clone().expect("a message");
+    assert!(notice.is_error && notice.text.contains("`pathtracer merge"), "{notice:?}");
+    desk.command(&["merge", "window.png.film", "merged.png"]);
+    let arguments = format!("balls.yaml 48 27 {samples} 8 line.png --accel native");
+    desk.command(&arguments.split(' ').collect::<Vec<_>>());
+    assert!(desk.read("merged.png") == desk.read("line.png"));
+    assert!(studio.close(), "there is nothing left to be lost");
+}
+
+#[test]
+fn a_scene_that_cannot_be_saved_when_the_window_closes_keeps_it_open() {
+    let desk = Desk::new();
+    let mut studio = opened(&desk);
+    studio.edit(|editable| editable.camera.fov = 0.5);
+    studio.save_scene(Some(&desk.path("nowhere/balls.yaml")));
+    assert!(!studio.close());
+    assert!(studio.notice.as_ref().is_some_and(|notice| notice.is_error), "{:?}", studio.notice);
+}
+
+#[test]
+fn a_picture_with_channels_has_the_bytes_of_its_command_line() {
+    let desk = Desk::new();
+    let mut studio = opened(&desk);
+    let knobs = &mut studio.kept.knobs;
+    knobs.image = desk.path("window.exr").to_string_lossy().into_owned();
+    knobs.depth = Some(Depth::Half);
+    knobs.aov = vec![Aov::Feature(FeatureKind::Normal), Aov::Samples, Aov::Error];
+    let command = Knobs { image: "line.exr".into(), ..knobs.clone() }.command(Path::new("balls.yaml"));
+    studio.render();
+    until(&mut studio, "a file", |studio| studio.session.status().written.is_some());
+    desk.command(&command.split(' ').skip(1).collect::<Vec<_>>());
+    assert!(desk.read("window.exr") == desk.read("line.exr"), "{command}");
+}
+
+#[test]
+fn a_material_file_of_a_mesh_is_watched() {
+    let desk = Desk::new();
+    let color = |red: &str| format!("newmtl wall\nKd {red} 0 0\n");
+    desk.write("wall.mtl", &color("0.5"));
+    desk.write("wall.obj", "mtllib wall.mtl\nv 0 -1 0\nv 0 1 0\nv 0 0 2\nusemtl wall\nf 1 2 3\n");
+    let mesh = "  - Object:\n      Type: TriangleMesh\n      Filepath: wall.obj\n      Position: [0, 0, 0]\n      \
+                Material: FromFile\n";
+    desk.write("balls.yaml", &format!("{BALLS}{mesh}"));
+    let mut studio = opened(&desk);
+    let first = studio.session.frame().expect("a picture").job;
+    desk.write("wall.mtl", &color("0.125"));
+    until(&mut studio, "another preview", |studio| studio.session.status().job > first);
+    let loaded = studio.document.loaded.clone().expect("a scene");
+    let kind = &loaded.scene.desc.objects[3].material.kind;
+    assert!(matches!(kind, MaterialKind::Diffuse { color, .. } if color.x == 0.125), "{kind:?}");
 }
 
 #[test]
@@ -210,7 +296,7 @@ fn closing_during_a_final_render_writes_its_picture_so_far() {
     studio.kept.knobs.samples = 1 << 20;
     studio.render();
     studio.session.wait_for(2);
-    studio.close();
+    assert!(studio.close());
     let samples = studio.session.frame().expect("a picture").samples;
     let arguments = format!("balls.yaml 48 27 {samples} 8 line.png --accel native");
     desk.command(&arguments.split(' ').collect::<Vec<_>>());

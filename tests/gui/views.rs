@@ -37,7 +37,7 @@ fn light_has_the_bytes_of_a_picture_file() {
 #[test]
 fn the_picture_is_shown_in_the_bytes_of_its_file() {
     let frame = frame();
-    let shown = show(Request { frame: Arc::clone(&frame), view: View::Picture, exposure: 1.0 });
+    let shown = show(Request { frame: Arc::clone(&frame), view: View::Picture, exposure: 1.0, most: 8192 });
     for (pixel, light) in shown.image.pixels.iter().zip(&frame.light) {
         let bytes = light.to_array().map(|value| quantize(srgb_encode(value * 2.0)));
         assert_eq!(pixel.to_array()[..3], bytes);
@@ -51,13 +51,25 @@ fn every_view_has_a_colour_for_every_pixel_and_they_differ() {
     let frame = frame();
     let mut images = Vec::new();
     for view in View::ALL {
-        let shown = show(Request { frame: Arc::clone(&frame), view, exposure: 0.0 });
+        let shown = show(Request { frame: Arc::clone(&frame), view, exposure: 0.0, most: 8192 });
         assert_eq!(shown.image.size, frame.size(), "{view:?}");
         images.push(shown.image);
     }
     for (i, a) in images.iter().enumerate() {
         assert!(images[i + 1..].iter().all(|b| a != b), "{:?}", View::ALL[i]);
     }
+}
+
+#[test]
+fn an_image_is_never_larger_than_the_graphics_driver_takes() {
+    let frame = frame();
+    let shown =
+        |most: usize| show(Request { frame: Arc::clone(&frame), view: View::Picture, exposure: 0.0, most });
+    let (whole, part) = (shown(48), shown(20));
+    assert_eq!((whole.image.size, part.image.size), ([48, 27], [16, 9]));
+    // Of every three pixels the first.
+    assert!((0..9).all(|y| (0..16).all(|x| part.image[(x, y)] == whole.image[(3 * x, 3 * y)])));
+    assert_eq!(shown(1).image.size, [1, 1]);
 }
 
 #[test]
@@ -178,7 +190,7 @@ fn zooming_keeps_what_is_under_the_mouse() {
     let moved = pixel_at(zoom.layout(place, size, 1.0), size, mouse).expect("inside");
     assert!((after[0] - moved[0] - 1.0).abs() <= 0.1);
     zoom.fit();
-    assert!(zoom.is_fit());
+    assert_eq!(zoom.layout(place, size, 1.0), place);
 }
 
 #[test]

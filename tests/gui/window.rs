@@ -15,6 +15,10 @@ use std::time::{Duration, Instant};
 
 /// How long is waited for anything.
 const PATIENCE: Duration = Duration::from_secs(180);
+/// How long is waited for the effect of keys before they are pressed once more.
+const TRY: Duration = Duration::from_secs(3);
+/// How often is looked.
+const LOOK: Duration = Duration::from_millis(20);
 
 /// Waits for something that another process does.
 #[track_caller]
@@ -25,7 +29,7 @@ fn wait_for<T>(what: &str, mut look: impl FnMut() -> Option<T>) -> T {
             return found;
         }
         assert!(start.elapsed() < PATIENCE, "waited in vain for {what}");
-        thread::sleep(Duration::from_millis(20));
+        thread::sleep(LOOK);
     }
 }
 
@@ -94,18 +98,46 @@ impl Screen {
         self.tell(&["key", "--clearmodifiers", key]);
     }
 
+    /// Without --sync, which waits long for a mouse that is there already.
     fn click(&self, at: Pos2) {
         let [x, y] = [at.x, at.y].map(|place| place.round().to_string());
-        self.tell(&["mousemove", "--sync", &x, &y]);
-        // A frame with the mouse there comes before the click.
-        thread::sleep(Duration::from_millis(100));
-        self.tell(&["click", "1"]);
-        thread::sleep(Duration::from_millis(100));
+        self.tell(&["mousemove", &x, &y, "click", "1"]);
+    }
+
+    fn title(&self) -> String {
+        self.tell(&["getwindowname", &self.window])
+    }
+
+    /// Does something until it has had its effect: where frames are slow, keys may arrive before what they are for.
+    #[track_caller]
+    fn insist(&self, what: &str, act: impl Fn(), holds: impl Fn() -> bool) {
+        wait_for(what, || {
+            act();
+            let start = Instant::now();
+            while start.elapsed() < TRY {
+                if holds() {
+                    return Some(());
+                }
+                thread::sleep(LOOK);
+            }
+            None
+        });
+    }
+
+    /// Starts the final render, and waits until there is a picture of it.
+    #[track_caller]
+    fn start_render(&self) {
+        self.insist("a picture", || self.key("Return"), || self.title().contains('%'));
+    }
+
+    /// Asks the window to close.
+    fn ask_to_close(&self) {
+        self.key("ctrl+q");
     }
 
     /// Closes the window; how the program ended.
     fn close(&mut self) -> ExitStatus {
-        self.key("ctrl+q");
+        self.ask_to_close();
         wait_for("the end of the program", || self.program.try_wait().expect("a child"))
     }
 }
@@ -129,28 +161,27 @@ fn a_scene_is_changed_focused_rendered_and_saved_as_by_the_command_line() {
     let desk = Desk::new();
     let Some(mut screen) = Screen::open(&desk, &["gui", "balls.yaml"], 16) else { return };
     let widgets = window(&desk);
-    let saved = || {
-        screen.key("ctrl+s");
-        String::from_utf8(desk.read("balls.yaml")).expect("UTF-8")
-    };
-    // Where frames are slow, keys may arrive before the field has the keyboard: then once more.
-    wait_for("another field of view", || {
+    let text = || String::from_utf8(desk.read("balls.yaml")).expect("UTF-8");
+    let type_60 = || {
         screen.click(field(&widgets, "Field of view (°)"));
         screen.key("ctrl+a");
         screen.tell(&["type", "60"]);
-        screen.key("Escape");
-        saved().contains("Fov: 0.3333333333333333\n").then_some(())
-    });
-    let text = wait_for("another focus", || {
+        screen.tell(&["key", "Escape", "ctrl+s"]);
+    };
+    screen.insist("another field of view", type_60, || text().contains("Fov: 0.3333333333333333\n"));
+    let middle = widgets.state().1.canvas.place.expect("a place").center();
+    let focus = || {
         screen.key("f");
-        screen.click(widgets.state().1.canvas.place.expect("a place").center());
-        Some(saved()).filter(|text| !text.contains("FocusDistance: 6 "))
-    });
+        screen.click(middle);
+        screen.key("ctrl+s");
+    };
+    screen.insist("another focus", focus, || !text().contains("FocusDistance: 6 "));
     // The middle of the picture shows the ball, which is nearer than its centre by its radius.
+    let text = text();
     let focus = text.lines().find(|line| line.contains("FocusDistance:")).expect("a focus distance");
     assert!(focus.starts_with("  FocusDistance: 5.08") && focus.ends_with("# the ball"), "{focus}");
-    screen.key("Return");
-    wait_for("the picture", || fs::exists(desk.path("balls.png")).expect("a folder").then_some(()));
+    let exists = || fs::exists(desk.path("balls.png")).expect("a folder");
+    screen.insist("the picture", || screen.key("Return"), exists);
     assert_eq!(screen.close().code(), Some(0));
     let arguments = "balls.yaml 160 90 16 8 line.png --accel native";
     desk.command(&arguments.split(' ').collect::<Vec<_>>());
@@ -159,23 +190,35 @@ fn a_scene_is_changed_focused_rendered_and_saved_as_by_the_command_line() {
     assert!(kept.contains("balls.yaml"), "{kept}");
 }
 
-#[test]
-fn closing_the_window_during_a_render_writes_its_picture_and_leaves_no_process() {
-    let desk = Desk::new();
-    // Without a picture yet, closing has nothing to write: then more is waited for.
-    for milliseconds in [500, 2000, 8000] {
-        let Some(mut screen) = Screen::open(&desk, &["balls.yaml"], 1 << 30) else { return };
-        screen.key("Return");
-        thread::sleep(Duration::from_millis(milliseconds));
-        assert_eq!(screen.close().code(), Some(0));
-        if fs::exists(desk.path("balls.png")).expect("a folder") {
-            break;
-        }
-    }
-    let info = desk.command(&["info", "balls.png"]);
+/// Checks that a picture is that of the command line with as many samples as it says.
+fn check_picture(desk: &Desk, name: &str) {
+    let info = desk.command(&["info", name]);
     let info = String::from_utf8(info.stdout).expect("UTF-8");
     let written = info.lines().find(|line| line.contains("samplesPerPixel")).expect("a number of samples");
     let samples = written.rsplit(' ').next().expect("a number");
     desk.command(&["balls.yaml", "160", "90", samples, "8", "line.png", "--accel", "native"]);
-    assert!(desk.read("balls.png") == desk.read("line.png"), "{samples} samples");
+    assert!(desk.read(name) == desk.read("line.png"), "{samples} samples");
+}
+
+#[test]
+fn closing_the_window_during_a_render_writes_its_picture_and_leaves_no_process() {
+    let desk = Desk::new();
+    let Some(mut screen) = Screen::open(&desk, &["balls.yaml"], 1 << 30) else { return };
+    screen.start_render();
+    assert_eq!(screen.close().code(), Some(0));
+    check_picture(&desk, "balls.png");
+}
+
+#[test]
+fn a_window_whose_picture_cannot_be_written_stays_open_once_and_keeps_the_film() {
+    let desk = Desk::new();
+    let Some(mut screen) = Screen::open(&desk, &["balls.yaml"], 1 << 30) else { return };
+    screen.start_render();
+    fs::create_dir(desk.path("balls.png")).expect("a folder");
+    screen.ask_to_close();
+    wait_for("the end of the render", || (!screen.title().contains('%')).then_some(()));
+    assert!(screen.program.try_wait().expect("a child").is_none(), "the window was closed");
+    assert_eq!(screen.close().code(), Some(0));
+    desk.command(&["merge", "balls.png.film", "merged.png"]);
+    check_picture(&desk, "merged.png");
 }

@@ -28,8 +28,10 @@ pub(in crate::cli) const BVHS: [(&str, BvhQuality); 3] = [
 /// The names of the instruction sets.
 pub(in crate::cli) const ISAS: [(&str, Isa); 3] =
     [(Isa::Sse2.name(), Isa::Sse2), (Isa::Avx2.name(), Isa::Avx2), (Isa::Avx512.name(), Isa::Avx512)];
-pub(super) const SAMPLERS: [(&str, SamplerKind); 2] =
-    [("sobol", SamplerKind::Sobol), ("independent", SamplerKind::Independent)];
+pub(super) const SAMPLERS: [(&str, SamplerKind); 2] = [
+    (SamplerKind::Sobol.name(), SamplerKind::Sobol),
+    (SamplerKind::Independent.name(), SamplerKind::Independent),
+];
 pub(super) const DEPTHS: [(&str, Depth); 4] = [
     (Depth::Eight.name(), Depth::Eight),
     (Depth::Sixteen.name(), Depth::Sixteen),

@@ -2,12 +2,12 @@
 
 use super::Desk;
 use crate::gui::display::View;
-use crate::gui::examples;
+use crate::gui::examples::Example;
 use crate::gui::pick::Tool;
 use crate::gui::settings::Theme;
 use crate::gui::studio::Studio;
 use eframe::egui::{Button, ComboBox, MenuBar, Ui, ViewportCommand};
-use std::path::PathBuf;
+use std::path::Path;
 
 pub(super) fn show(ui: &mut Ui, studio: &mut Studio, desk: &mut Desk) {
     MenuBar::new().ui(ui, |ui| {
@@ -28,21 +28,35 @@ pub(super) fn show(ui: &mut Ui, studio: &mut Studio, desk: &mut Desk) {
 
 fn file_menu(ui: &mut Ui, studio: &mut Studio, desk: &mut Desk) {
     if ui.button("Open…   Ctrl+O").clicked() {
-        desk.dialogs.open_scene(studio);
+        desk.dialogs.open_scene(studio, ui.ctx());
     }
-    let recent = studio.kept.recent.clone();
-    list(ui, "Recent files", recent, studio);
-    ui.menu_button("Examples", |ui| entries(ui, examples::find(), studio));
+    ui.menu_button("Recent files", |ui| {
+        let chosen =
+            entries(ui, &studio.kept.recent, |path| file_name(path), |path| path.display().to_string());
+        if let Some(path) = chosen {
+            studio.open(&path);
+        }
+    });
+    ui.menu_button("Examples", |ui| {
+        let chosen =
+            entries(ui, studio.examples.get().unwrap_or_default(), Example::name, |example| match example {
+                Example::File(path) => path.display().to_string(),
+                Example::Inside(..) => "goes to your folder for data".into(),
+            });
+        if let Some(example) = chosen {
+            studio.open_example(&example);
+        }
+    });
     ui.separator();
     let has_scene = studio.document.loaded.is_some();
     if ui.add_enabled(has_scene, Button::new("Save scene   Ctrl+S")).clicked() {
         studio.save_scene(None);
     }
     if ui.add_enabled(has_scene, Button::new("Save scene as…")).clicked() {
-        desk.dialogs.save_scene(studio);
+        desk.dialogs.save_scene(studio, ui.ctx());
     }
     if ui.add_enabled(has_scene, Button::new("Save picture…   Ctrl+E")).clicked() {
-        desk.dialogs.save_picture(studio);
+        desk.dialogs.save_picture(studio, ui.ctx());
     }
     let copy = ui.add_enabled(has_scene, Button::new("Copy as command line"));
     if copy.clicked()
@@ -56,20 +70,27 @@ fn file_menu(ui: &mut Ui, studio: &mut Studio, desk: &mut Desk) {
     }
 }
 
-fn list(ui: &mut Ui, title: &str, paths: Vec<PathBuf>, studio: &mut Studio) {
-    ui.menu_button(title, |ui| entries(ui, paths, studio));
-}
-
-fn entries(ui: &mut Ui, paths: Vec<PathBuf>, studio: &mut Studio) {
-    if paths.is_empty() {
+/// The one that was clicked.
+fn entries<T: Clone>(
+    ui: &mut Ui,
+    all: &[T],
+    name: impl Fn(&T) -> String,
+    about: impl Fn(&T) -> String,
+) -> Option<T> {
+    if all.is_empty() {
         ui.weak("none");
     }
-    for path in paths {
-        let name = path.file_name().unwrap_or_default().to_string_lossy();
-        if ui.button(name).on_hover_text(path.display().to_string()).clicked() {
-            studio.open(&path);
+    let mut chosen = None;
+    for one in all {
+        if ui.button(name(one)).on_hover_text(about(one)).clicked() {
+            chosen = Some(one.clone());
         }
     }
+    chosen
+}
+
+fn file_name(path: &Path) -> String {
+    path.file_name().unwrap_or_default().to_string_lossy().into_owned()
 }
 
 fn edit_menu(ui: &mut Ui, studio: &mut Studio) {

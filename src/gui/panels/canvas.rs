@@ -81,7 +81,7 @@ impl Canvas {
         let Some(frame) = studio.session.frame() else {
             return hint(ui, place, studio);
         };
-        self.request(&frame, studio);
+        self.request(ui, &frame, studio);
         let options = if self.zoom.scale() >= 2.0 && !frame.is_coarse {
             TextureOptions::NEAREST
         } else {
@@ -109,11 +109,12 @@ impl Canvas {
     }
 
     /// Asks for the colours of what is to be seen.
-    fn request(&self, frame: &Arc<Frame>, studio: &mut Studio) {
+    fn request(&self, ui: &Ui, frame: &Arc<Frame>, studio: &mut Studio) {
         let (view, exposure) = (studio.view, studio.kept.knobs.exposure);
-        studio.display.request(Request { frame: Arc::clone(frame), view, exposure });
+        let most = ui.ctx().input(|input| input.max_texture_side);
+        studio.display.request(Request { frame: Arc::clone(frame), view, exposure, most });
         if let Some(stored) = studio.stored.clone().filter(|_| studio.wipe.is_some()) {
-            studio.stored_display.request(Request { frame: stored, view, exposure });
+            studio.stored_display.request(Request { frame: stored, view, exposure, most });
         }
     }
 
@@ -161,7 +162,7 @@ impl Canvas {
                 _ => control::orbit(camera, shares),
             }
         });
-        studio.form.clear();
+        studio.form.clear_camera();
     }
 
     fn wheel(
@@ -181,7 +182,7 @@ impl Canvas {
         } else if scroll != 0.0 {
             let factor = libm::exp(-WHEEL * f64::from(scroll) / 50.0);
             studio.edit(|editable| control::dolly(&mut editable.camera, factor));
-            studio.form.clear();
+            studio.form.clear_camera();
         }
     }
 

@@ -54,13 +54,13 @@ pub(super) fn keys(ui: &Ui, studio: &mut Studio, desk: &mut Desk) {
     }
     // Also while a field has the keyboard: it does nothing with these.
     if pressed(Modifiers::COMMAND, Key::O) {
-        desk.dialogs.open_scene(studio);
+        desk.dialogs.open_scene(studio, ctx);
     }
     if pressed(Modifiers::COMMAND, Key::S) {
         studio.save_scene(None);
     }
     if pressed(Modifiers::COMMAND, Key::E) {
-        desk.dialogs.save_picture(studio);
+        desk.dialogs.save_picture(studio, ctx);
     }
     if pressed(Modifiers::COMMAND, Key::Q) {
         ctx.send_viewport_cmd(eframe::egui::ViewportCommand::Close);

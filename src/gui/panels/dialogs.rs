@@ -4,11 +4,13 @@ use super::commands::HELP;
 use crate::gui::examples::is_scene;
 use crate::gui::studio::Studio;
 use eframe::egui::{
-    Align2, Context, Grid, Id, Key, Modal, ScrollArea, TextEdit, Ui, ViewportCommand, Window,
+    Align2, Button, Context, Grid, Id, Key, Modal, ScrollArea, TextEdit, Ui, ViewportCommand, Window,
 };
 use std::env;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, channel};
+use std::thread;
 
 /// What a file is chosen for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,66 +34,97 @@ impl Purpose {
     }
 }
 
-/// A file that is being chosen.
-struct Choice {
-    purpose: Purpose,
+/// What is in a folder.
+#[derive(Default)]
+struct Listing {
     folder: PathBuf,
-    name: String,
     folders: Vec<PathBuf>,
     files: Vec<PathBuf>,
-    is_new: bool,
 }
 
-impl Choice {
-    fn new(purpose: Purpose, path: &Path) -> Choice {
-        let path = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
-        let folder = path.parent().unwrap_or(Path::new("/")).to_path_buf();
-        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        let mut choice =
-            Choice { purpose, folder, name, folders: Vec::new(), files: Vec::new(), is_new: true };
-        choice.list();
-        choice
-    }
-
-    /// Looks into the folder.
-    fn list(&mut self) {
-        let entries = fs::read_dir(&self.folder).into_iter().flatten().flatten().map(|entry| entry.path());
+impl Listing {
+    /// Of the first of some paths that is a folder.
+    fn new(purpose: Purpose, paths: &[PathBuf]) -> Listing {
+        let folder = paths.iter().find(|path| path.is_dir()).cloned().unwrap_or_else(|| "/".into());
+        let entries = fs::read_dir(&folder).into_iter().flatten().flatten().map(|entry| entry.path());
         let is_hidden =
             |path: &Path| path.file_name().is_none_or(|name| name.to_string_lossy().starts_with('.'));
         let mut all: Vec<PathBuf> = entries.filter(|path| !is_hidden(path)).collect();
         all.sort();
-        let is_wanted = |path: &PathBuf| match self.purpose {
+        let is_wanted = |path: &PathBuf| match purpose {
             Purpose::SavePicture => crate::picture::Format::of(path).is_ok(),
             _ => is_scene(path),
         };
-        self.folders = all.iter().filter(|path| path.is_dir()).cloned().collect();
-        self.files = all.into_iter().filter(|path| path.is_file() && is_wanted(path)).collect();
+        let folders = all.iter().filter(|path| path.is_dir()).cloned().collect();
+        let files = all.into_iter().filter(|path| path.is_file() && is_wanted(path)).collect();
+        Listing { folder, folders, files }
+    }
+}
+
+/// A file that is being chosen.
+struct Choice {
+    purpose: Purpose,
+    name: String,
+    listing: Listing,
+    /// The listing on its way: a folder may be far away.
+    coming: Option<Receiver<Listing>>,
+    is_new: bool,
+}
+
+impl Choice {
+    /// In the first of some folders that is there.
+    fn new(purpose: Purpose, folders: Vec<PathBuf>, name: String, ctx: &Context) -> Choice {
+        let listing = Listing::default();
+        let mut choice = Choice { purpose, name, listing, coming: None, is_new: true };
+        choice.enter(folders, ctx);
+        choice
     }
 
-    fn enter(&mut self, folder: PathBuf) {
-        self.folder = folder;
-        self.list();
+    /// Beside a file, with its name.
+    fn beside(purpose: Purpose, path: &Path, ctx: &Context) -> Choice {
+        let path = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
+        let folder = path.parent().unwrap_or(Path::new("/")).to_path_buf();
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let here = env::current_dir().unwrap_or_else(|_| "/".into());
+        Choice::new(purpose, vec![folder, here], name, ctx)
+    }
+
+    /// Begins to look into the first of some paths that is a folder.
+    fn enter(&mut self, paths: Vec<PathBuf>, ctx: &Context) {
+        let (sender, receiver) = channel();
+        let (purpose, ctx) = (self.purpose, ctx.clone());
+        self.coming = Some(receiver);
+        thread::spawn(move || {
+            // A dialog that was closed does not want to know.
+            let _ = sender.send(Listing::new(purpose, &paths));
+            ctx.request_repaint();
+        });
     }
 
     /// Draws it; the file that was chosen.
     fn show(&mut self, ui: &mut Ui) -> Option<PathBuf> {
-        let mut chosen = None;
+        if let Some(Ok(listing)) = self.coming.as_ref().map(Receiver::try_recv) {
+            self.listing = listing;
+            self.coming = None;
+        }
+        let (mut chosen, mut entered) = (None, None);
         ui.horizontal(|ui| {
-            if ui.button("Up").clicked()
-                && let Some(parent) = self.folder.parent()
-            {
-                self.enter(parent.to_path_buf());
+            if ui.button("Up").clicked() {
+                entered = self.listing.folder.parent().map(Path::to_path_buf);
             }
-            ui.label(self.folder.display().to_string());
+            ui.label(self.listing.folder.display().to_string());
+            if self.coming.is_some() {
+                ui.spinner();
+            }
         });
         ScrollArea::vertical().max_height(260.0).auto_shrink([false, false]).show(ui, |ui| {
-            for folder in self.folders.clone() {
+            for folder in &self.listing.folders {
                 let name = folder.file_name().unwrap_or_default().to_string_lossy();
                 if ui.selectable_label(false, format!("{name}/")).clicked() {
-                    self.enter(folder);
+                    entered = Some(folder.clone());
                 }
             }
-            for file in &self.files {
+            for file in &self.listing.files {
                 let name = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
                 let label = ui.selectable_label(self.name == name, &name);
                 if label.clicked() {
@@ -110,16 +143,21 @@ impl Choice {
                 edit.request_focus();
             }
             let is_entered = edit.lost_focus() && ui.ctx().input(|input| input.key_pressed(Key::Enter));
-            if (ui.button(self.purpose.verb()).clicked() || is_entered) && !self.name.is_empty() {
-                let path = self.folder.join(&self.name);
+            let is_there = !self.listing.folder.as_os_str().is_empty();
+            let is_pressed = ui.add_enabled(is_there, Button::new(self.purpose.verb())).clicked();
+            if (is_pressed || is_entered && is_there) && !self.name.is_empty() {
+                let path = self.listing.folder.join(&self.name);
                 if path.is_dir() {
                     self.name.clear();
-                    self.enter(path);
+                    entered = Some(path);
                 } else {
                     chosen = Some(path);
                 }
             }
         });
+        if let Some(folder) = entered {
+            self.enter(vec![folder], ui.ctx());
+        }
         chosen
     }
 }
@@ -143,28 +181,25 @@ impl Dialogs {
     }
 
     /// Asks for a scene.
-    pub fn open_scene(&mut self, studio: &Studio) {
-        let here = env::current_dir().unwrap_or_default().join("scenes/x");
-        let near = studio.document.path.clone().or_else(|| studio.kept.recent.first().cloned());
-        let near = near.filter(|path| path.exists()).unwrap_or(here);
-        let mut choice = Choice::new(Purpose::Open, &near);
-        if !choice.folder.is_dir() {
-            choice.enter(env::current_dir().unwrap_or_else(|_| "/".into()));
-        }
-        choice.name.clear();
-        self.choice = Some(choice);
+    pub fn open_scene(&mut self, studio: &Studio, ctx: &Context) {
+        let near = studio.document.path.iter().chain(&studio.kept.recent);
+        let near = near.filter_map(|path| std::path::absolute(path).ok()?.parent().map(Path::to_path_buf));
+        let here = env::current_dir().unwrap_or_else(|_| "/".into());
+        let folders = near.chain([here.join("scenes"), here]).collect();
+        self.choice = Some(Choice::new(Purpose::Open, folders, String::new(), ctx));
     }
 
     /// Asks where the scene goes.
-    pub fn save_scene(&mut self, studio: &Studio) {
+    pub fn save_scene(&mut self, studio: &Studio, ctx: &Context) {
         let loaded = studio.document.loaded.as_ref();
         let path = loaded.map_or_else(|| "scene.yaml".into(), |loaded| loaded.path.clone());
-        self.choice = Some(Choice::new(Purpose::SaveScene, &path));
+        self.choice = Some(Choice::beside(Purpose::SaveScene, &path, ctx));
     }
 
     /// Asks where the picture goes.
-    pub fn save_picture(&mut self, studio: &Studio) {
-        self.choice = Some(Choice::new(Purpose::SavePicture, Path::new(&studio.kept.knobs.image)));
+    pub fn save_picture(&mut self, studio: &Studio, ctx: &Context) {
+        let path = Path::new(&studio.kept.knobs.image);
+        self.choice = Some(Choice::beside(Purpose::SavePicture, path, ctx));
     }
 
     pub(super) fn show(&mut self, ctx: &Context, studio: &mut Studio) {

@@ -15,8 +15,9 @@ pub use canvas::Canvas;
 pub use dialogs::Dialogs;
 pub use zoom::{Zoom, pixel_at};
 
+use super::settings::Theme;
 use super::studio::Studio;
-use eframe::egui::{CentralPanel, Color32, Frame, Panel, ScrollArea, Ui};
+use eframe::egui::{CentralPanel, Color32, Context, Frame, Panel, ScrollArea, ThemePreference, Ui};
 
 /// What is drawn, beside what [`Studio`] holds.
 #[derive(Default)]
@@ -25,6 +26,7 @@ pub struct Desk {
     pub canvas: Canvas,
     /// Windows in the window.
     pub dialogs: Dialogs,
+    theme: Option<Theme>,
 }
 
 impl Desk {
@@ -41,7 +43,8 @@ impl Desk {
                 sky::show(ui, studio);
             });
         });
-        Panel::right("inspector").default_size(280.0).size_range(260.0..=420.0).show(ui, |ui| {
+        // Every material fits: a panel that grows takes place from the picture, whose preview would start anew.
+        Panel::right("inspector").default_size(320.0).size_range(260.0..=420.0).show(ui, |ui| {
             ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                 inspector::show(ui, studio, &self.canvas);
                 objects::show(ui, studio);
@@ -52,5 +55,16 @@ impl Desk {
         let frame = Frame::NONE.fill(Color32::from_gray(gray));
         CentralPanel::default().frame(frame).show(ui, |ui| self.canvas.show(ui, studio));
         self.dialogs.show(ui.ctx(), studio);
+        self.follow_theme(ui.ctx(), studio.kept.theme);
+    }
+
+    fn follow_theme(&mut self, ctx: &Context, theme: Theme) {
+        if self.theme.replace(theme) != Some(theme) {
+            ctx.set_theme(match theme {
+                Theme::System => ThemePreference::System,
+                Theme::Dark => ThemePreference::Dark,
+                Theme::Light => ThemePreference::Light,
+            });
+        }
     }
 }

@@ -1,23 +1,29 @@
 //! The fields on the left: the picture, the render, the camera.
 
+use crate::accel::Precision;
 use crate::gui::form::Field;
-use crate::gui::settings::{ACCELS, PRECISIONS, PreviewSize, SAMPLERS};
+use crate::gui::settings::{Knobs, PreviewSize};
 use crate::gui::studio::Studio;
+use crate::output::Aov;
+use crate::picture::{Depth, Format};
 use crate::render::AccelKind;
+use crate::sampling::SamplerKind;
 use crate::scene::desc::ApertureDesc;
 use eframe::egui::{CollapsingHeader, ComboBox, Grid, Key, Slider, TextEdit, Ui};
 
 /// Of a field with one number, and of each of three in a row.
 const WIDE: f32 = 110.0;
 const NARROW: f32 = 42.0;
+/// Of the reason below a field, so that the panel does not grow.
+const REASON: f32 = 140.0;
 
 pub(super) fn show(ui: &mut Ui, studio: &mut Studio) {
     CollapsingHeader::new("Picture").default_open(true).show(ui, |ui| {
         Grid::new("picture").num_columns(2).show(ui, |ui| {
-            for field in [Field::Width, Field::Height, Field::Samples, Field::Bounces] {
+            for field in [Field::Width, Field::Height, Field::Samples, Field::Bounces, Field::File] {
                 row(ui, studio, field, field.label());
             }
-            image(ui, studio);
+            file(ui, &mut studio.kept.knobs);
         });
         exposure(ui, studio);
     });
@@ -35,8 +41,9 @@ pub(super) fn show(ui: &mut Ui, studio: &mut Studio) {
 fn row(ui: &mut Ui, studio: &mut Studio, field: Field, label: &str) {
     let label = ui.label(label);
     ui.vertical(|ui| {
+        ui.set_max_width(REASON);
         input(ui, studio, field, WIDE).labelled_by(label.id);
-        studio.form.show_error(ui, field);
+        studio.form.show_error(ui, field, &studio.kept.knobs);
     });
     ui.end_row();
 }
@@ -57,15 +64,44 @@ fn input(ui: &mut Ui, studio: &mut Studio, field: Field, width: f32) -> eframe::
     response
 }
 
-/// The picture's file.
-fn image(ui: &mut Ui, studio: &mut Studio) {
-    let label = ui.label("File");
-    let edit = TextEdit::singleline(&mut studio.kept.knobs.image).id_salt("image").desired_width(WIDE);
-    let help = "The final picture is written there: .png, .exr (linear), with OpenImageIO .tif, .hdr, .jpg";
-    let response = ui.add(edit).labelled_by(label.id).on_hover_text(help);
-    if response.lost_focus() && ui.ctx().input(|input| input.key_pressed(Key::Enter)) {
-        studio.render();
+/// What the picture's file holds.
+fn file(ui: &mut Ui, knobs: &mut Knobs) {
+    let format = knobs.format();
+    let depths = format.map_or(&[][..], Format::depths);
+    let default = depths.first().map_or("as the file", |depth| depth.name());
+    // One that this format does not have waits for one that does.
+    let mut depth = knobs.depth.filter(|depth| depths.contains(depth));
+    let before = depth;
+    let others = depths.iter().skip(1).copied().map(Some);
+    choice(ui, "Depth", &mut depth, [None].into_iter().chain(others), |depth| {
+        depth.map_or(default, Depth::name).into()
+    });
+    if depth != before {
+        knobs.depth = depth;
     }
+    let label = ui.label("Channels");
+    let is_exr = format == Some(Format::Exr);
+    let chosen = if is_exr { knobs.aov.len() } else { 0 };
+    let title = if chosen == 0 { "light".to_owned() } else { format!("light and {chosen} more") };
+    let menu = ui.add_enabled_ui(is_exr, |ui| {
+        ui.menu_button(title, |ui| {
+            for aov in Aov::ALL {
+                let mut is_on = knobs.aov.contains(&aov);
+                if ui.checkbox(&mut is_on, aov.name()).changed() {
+                    knobs.aov = Aov::ALL
+                        .into_iter()
+                        .filter(|one| if *one == aov { is_on } else { knobs.aov.contains(one) })
+                        .collect();
+                }
+            }
+        })
+        .response
+    });
+    menu.inner.labelled_by(label.id).on_disabled_hover_text("An .exr holds more than the light");
+    ui.end_row();
+    let label = ui.label("Denoise");
+    let help = "By Open Image Denoise; the noisy picture is kept beside, as NAME.noisy";
+    ui.checkbox(&mut knobs.denoise, "").labelled_by(label.id).on_hover_text(help);
     ui.end_row();
 }
 
@@ -74,7 +110,8 @@ fn exposure(ui: &mut Ui, studio: &mut Studio) {
     ui.spacing_mut().slider_width = 90.0;
     let slider = Slider::new(exposure, -10.0..=10.0).clamping(eframe::egui::SliderClamping::Never);
     ui.horizontal(|ui| {
-        let label = ui.label("Exposure").on_hover_text(Field::Exposure.help());
+        let help = "Brightness of what is shown, and of pictures that are not linear";
+        let label = ui.label("Exposure").on_hover_text(help);
         ui.add(slider.fixed_decimals(1).suffix(" EV")).labelled_by(label.id);
     });
     *exposure = exposure.clamp(-100.0, 100.0);
@@ -103,23 +140,25 @@ fn camera(ui: &mut Ui, studio: &mut Studio) {
 fn triple(ui: &mut Ui, studio: &mut Studio, label: &str, field: fn(usize) -> Field) {
     let label = ui.label(label);
     ui.vertical(|ui| {
+        ui.set_max_width(REASON);
         ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = 3.0;
             for axis in 0..3 {
                 input(ui, studio, field(axis), NARROW).labelled_by(label.id);
             }
         });
-        (0..3).for_each(|axis| studio.form.show_error(ui, field(axis)));
+        (0..3).for_each(|axis| studio.form.show_error(ui, field(axis), &studio.kept.knobs));
     });
     ui.end_row();
 }
 
 fn choices(ui: &mut Ui, studio: &mut Studio) {
     let knobs = &mut studio.kept.knobs;
-    let accels = ACCELS.into_iter().filter(|&accel| accel != AccelKind::Embree || cfg!(feature = "embree"));
+    let accels =
+        AccelKind::ALL.into_iter().filter(|&accel| accel != AccelKind::Embree || cfg!(feature = "embree"));
     choice(ui, "Accelerator", &mut knobs.accel, accels, |accel| accel.name().into());
-    choice(ui, "Precision", &mut knobs.precision, PRECISIONS, |precision| precision.name().into());
-    choice(ui, "Sampler", &mut knobs.sampler, SAMPLERS, |sampler| sampler.to_string());
+    choice(ui, "Precision", &mut knobs.precision, Precision::ALL, |precision| precision.name().into());
+    choice(ui, "Sampler", &mut knobs.sampler, SamplerKind::ALL, |sampler| sampler.name().into());
     choice(ui, "Preview size", &mut knobs.preview, PreviewSize::ALL, |size| size.name().into());
 }
 

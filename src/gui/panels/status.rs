@@ -30,7 +30,7 @@ pub(super) fn show(ui: &mut Ui, studio: &mut Studio) {
                 studio.notice = None;
             }
             let text = RichText::new(&notice.text);
-            ui.label(if notice.is_error { text.color(wrong_color(ui)) } else { text });
+            ui.label(if notice.is_error { text.color(wrong_color(ui.visuals())) } else { text });
         });
     }
 }
@@ -47,7 +47,7 @@ fn problems(ui: &mut Ui, studio: &Studio) {
         for diagnostic in diagnostics.iter().take(100) {
             let text = RichText::new(diagnostic.to_string()).monospace();
             let is_error = diagnostic.severity == crate::error::Severity::Error;
-            ui.label(if is_error { text.color(wrong_color(ui)) } else { text });
+            ui.label(if is_error { text.color(wrong_color(ui.visuals())) } else { text });
         }
     });
     ui.separator();

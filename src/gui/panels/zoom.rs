@@ -21,11 +21,6 @@ impl Zoom {
         self.at = None;
     }
 
-    /// Whether the whole picture is shown.
-    pub fn is_fit(&self) -> bool {
-        self.at.is_none()
-    }
-
     /// Screen pixels a picture pixel.
     pub fn scale(&self) -> f32 {
         self.at.map_or(self.whole, |(scale, _)| scale)

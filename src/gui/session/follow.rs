@@ -4,7 +4,7 @@ use super::work::Task;
 use super::{Frame, Look, Shared, Stage};
 use crate::film::Film;
 use crate::math::Rgb;
-use crate::render::{Prepared, Progress, Settings, SoFar, Watch};
+use crate::render::{FeaturePlanes, Prepared, Progress, Settings, SoFar, Watch};
 use rayon::prelude::*;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -20,15 +20,17 @@ pub(super) struct Follow<'f> {
     pub(super) settings: &'f Settings,
     /// Whether a larger picture comes after this one.
     pub(super) is_coarse: bool,
+    start: Instant,
+    /// How long renders were held before this one.
+    held: Duration,
     memory: Mutex<Memory>,
 }
 
 /// What is remembered from pass to pass.
 struct Memory {
-    start: Instant,
-    paused: Duration,
     told: Instant,
     shown: Option<Instant>,
+    shown_samples: u64,
     look: Option<Arc<Look>>,
     /// The means after half as many samples.
     before: Option<(u64, Vec<Rgb>)>,
@@ -44,17 +46,9 @@ impl<'f> Follow<'f> {
         is_coarse: bool,
         look: Option<Arc<Look>>,
     ) -> Follow<'f> {
-        let start = Instant::now();
-        let memory = Memory {
-            start,
-            paused: Duration::ZERO,
-            told: start,
-            shown: None,
-            look,
-            before: None,
-            errors: None,
-        };
-        Follow { shared, task, prepared, settings, is_coarse, memory: Mutex::new(memory) }
+        let (start, held) = (Instant::now(), shared.held());
+        let memory = Memory { told: start, shown: None, shown_samples: 0, look, before: None, errors: None };
+        Follow { shared, task, prepared, settings, is_coarse, start, held, memory: Mutex::new(memory) }
     }
 
     fn memory(&self) -> MutexGuard<'_, Memory> {
@@ -65,8 +59,10 @@ impl<'f> Follow<'f> {
     pub(super) fn look(&self) -> Option<Arc<Look>> {
         let task = self.task;
         let camera = &task.order.editable.camera;
-        let planes = self.prepared.look(&task.world, camera, self.settings, 1, self).ok()?;
-        (!self.cancelled()).then(|| Arc::new(Look::new(&planes)))
+        let mut look = Look::default();
+        let mut take = |planes: &FeaturePlanes| look.add(planes);
+        let is_whole = self.prepared.look(&task.world, camera, self.settings, self, &mut take);
+        is_whole.unwrap_or(false).then(|| Arc::new(look))
     }
 
     /// Hands over a picture.
@@ -74,6 +70,7 @@ impl<'f> Follow<'f> {
         let (look, errors) = {
             let mut memory = self.memory();
             memory.shown = Some(Instant::now());
+            memory.shown_samples = samples;
             if film.error_bar(0).is_some() {
                 memory.errors = Some(Arc::new(error_bars(film)));
             }
@@ -95,6 +92,11 @@ impl<'f> Follow<'f> {
             editable: Arc::clone(&self.task.order.editable),
             world: Arc::clone(&self.task.world),
         });
+    }
+
+    /// Whether a picture with so many samples was handed over last.
+    pub(super) fn has_shown(&self, samples: u64) -> bool {
+        self.memory().shown_samples == samples
     }
 
     fn learn_look(&self) {
@@ -135,16 +137,14 @@ fn differences(all: &[Rgb], half: &[Rgb]) -> Vec<f32> {
 
 impl Watch for Follow<'_> {
     fn progress(&self, progress: &Progress) {
-        let paused = self.shared.wait_out_pause(self.task.job);
+        self.shared.wait_out_pause(self.task.job);
         let mut memory = self.memory();
-        // All threads wait at the same time.
-        memory.paused = memory.paused.max(paused.min(memory.start.elapsed()));
         if self.is_coarse || memory.told.elapsed() < EVERY {
             return;
         }
         memory.told = Instant::now();
-        let seconds = memory.start.elapsed().saturating_sub(memory.paused).as_secs_f64();
         drop(memory);
+        let seconds = self.start.elapsed().saturating_sub(self.paused()).as_secs_f64();
         self.shared.tell(self.task.job, |status| {
             status.samples = progress.samples;
             status.total = progress.total;
@@ -159,6 +159,10 @@ impl Watch for Follow<'_> {
 
     fn cancelled(&self) -> bool {
         self.shared.is_over(self.task.job)
+    }
+
+    fn paused(&self) -> Duration {
+        self.shared.held().saturating_sub(self.held)
     }
 
     fn pass(&self, so_far: &SoFar<'_>) {

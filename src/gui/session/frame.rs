@@ -59,7 +59,7 @@ impl Frame {
 }
 
 /// What is seen in every pixel, beside its light.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Look {
     /// Reflectances.
     pub albedo: Vec<f32>,
@@ -72,16 +72,17 @@ pub struct Look {
 }
 
 impl Look {
-    pub(super) fn new(planes: &FeaturePlanes) -> Look {
+    /// Adds the next rows.
+    pub(super) fn add(&mut self, planes: &FeaturePlanes) {
         let [albedo, normal] = planes.guides();
-        let mut look = Look { albedo, normal, depth: Vec::new(), object: Vec::new() };
+        self.albedo.extend(albedo);
+        self.normal.extend(normal);
         for channel in planes.channels(&[FeatureKind::Depth, FeatureKind::Object]) {
             match channel.values {
-                Samples::Floats(depth) => look.depth = depth,
-                Samples::Integers(object) => look.object = object,
+                Samples::Floats(depth) => self.depth.extend(depth),
+                Samples::Integers(object) => self.object.extend(object),
             }
         }
-        look
     }
 
     /// The object that is seen in a pixel.

@@ -17,7 +17,7 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::{self, JoinHandle};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// What is to be rendered.
 #[derive(Clone, Debug)]
@@ -78,8 +78,8 @@ pub struct Status {
     pub seconds: f64,
     /// What is known about the error.
     pub outlook: Outlook,
-    /// Seconds that building the accelerator took.
-    pub build_seconds: f64,
+    /// Whether it could not, since the picture can't go to its file.
+    pub is_file_refused: bool,
     /// The file that the picture was written to.
     pub written: Option<PathBuf>,
 }
@@ -108,7 +108,38 @@ struct State {
     order: Option<Order>,
     frame: Option<Arc<Frame>>,
     status: Status,
+    hold: Hold,
     quit: bool,
+}
+
+/// How long renders were held by pauses: while at least one of their threads waited.
+#[derive(Default)]
+struct Hold {
+    /// Threads that wait now.
+    waiting: usize,
+    since: Option<Instant>,
+    /// Of all renders together.
+    total: Duration,
+}
+
+impl Hold {
+    fn enter(&mut self) {
+        if self.waiting == 0 {
+            self.since = Some(Instant::now());
+        }
+        self.waiting += 1;
+    }
+
+    fn leave(&mut self) {
+        self.waiting -= 1;
+        if self.waiting == 0 {
+            self.total += self.since.take().map_or(Duration::ZERO, |since| since.elapsed());
+        }
+    }
+
+    fn total(&self) -> Duration {
+        self.total + self.since.map_or(Duration::ZERO, |since| since.elapsed())
+    }
 }
 
 impl Shared {
@@ -162,16 +193,17 @@ impl Shared {
         !self.is_newest(job) || self.stopped.load(Ordering::Acquire) == job
     }
 
-    /// Waits while there is a pause. Returns how long.
-    fn wait_out_pause(&self, job: u64) -> Duration {
+    /// Waits while there is a pause.
+    fn wait_out_pause(&self, job: u64) {
         if !self.paused.load(Ordering::Acquire) {
-            return Duration::ZERO;
+            return;
         }
-        let start = std::time::Instant::now();
         let mut state = self.lock();
+        state.hold.enter();
         while self.paused.load(Ordering::Acquire) && !self.is_over(job) {
             if state.status.job == job && state.status.stage == Stage::Rendering {
                 state.status.stage = Stage::Paused;
+                self.wake.notify_all();
                 (self.notify)();
             }
             state = self.wake.wait(state).unwrap_or_else(PoisonError::into_inner);
@@ -179,7 +211,12 @@ impl Shared {
         if state.status.job == job && state.status.stage == Stage::Paused {
             state.status.stage = Stage::Rendering;
         }
-        start.elapsed()
+        state.hold.leave();
+    }
+
+    /// How long all renders were held, together.
+    fn held(&self) -> Duration {
+        self.lock().hold.total()
     }
 }
 
@@ -226,10 +263,10 @@ impl Session {
         self.shared.wake.notify_all();
     }
 
-    /// Holds the render, or lets it go on.
+    /// Holds the render under way, or lets it go on.
     pub fn pause(&self, is_paused: bool) {
-        let _state = self.shared.lock();
-        self.shared.paused.store(is_paused, Ordering::Release);
+        let state = self.shared.lock();
+        self.shared.paused.store(is_paused && state.status.is_busy(), Ordering::Release);
         self.shared.wake.notify_all();
     }
 
@@ -255,18 +292,25 @@ impl Session {
 
     /// Waits until the newest order has a frame of its full size with so many samples, or has ended.
     pub fn wait_for(&self, samples: u64) -> Status {
-        let mut state = self.shared.lock();
-        loop {
+        self.wait_until(|state| {
             let job = state.status.job;
-            let has_frame = state
-                .frame
-                .as_ref()
-                .is_some_and(|frame| frame.job == job && !frame.is_coarse && frame.samples >= samples);
-            if has_frame || !state.status.is_busy() {
-                return state.status.clone();
-            }
+            let frame = state.frame.as_ref();
+            frame.is_some_and(|frame| frame.job == job && !frame.is_coarse && frame.samples >= samples)
+        })
+    }
+
+    /// Waits until the render is held by a pause, or has ended.
+    pub fn wait_for_pause(&self) -> Status {
+        self.wait_until(|state| state.status.stage == Stage::Paused)
+    }
+
+    /// Waits until something holds, or the newest order has ended.
+    fn wait_until(&self, holds: impl Fn(&State) -> bool) -> Status {
+        let mut state = self.shared.lock();
+        while !holds(&state) && state.status.is_busy() {
             state = self.shared.wake.wait(state).unwrap_or_else(PoisonError::into_inner);
         }
+        state.status.clone()
     }
 }
 

@@ -5,13 +5,13 @@ use super::{Order, Purpose, Shared, Stage};
 use crate::error::Result;
 use crate::geometry::Geometry;
 use crate::math::Rgb;
-use crate::output::{Provenance, Target, Wanted};
-use crate::render::{Ended, Prepared, Rendered, Settings, View, in_pool};
+use crate::output::{Provenance, Rescue, Target, Wanted};
+use crate::picture::Destination;
+use crate::render::{Ended, Origin, Prepared, Recipe, Rendered, Settings, View, in_pool};
 use crate::scene::desc::MaterialKind;
 use crate::scene::edit::{self, Editable};
 use crate::scene::{self, Digest};
 use crate::world::World;
-use std::path::PathBuf;
 use std::sync::Arc;
 
 /// The time that the first picture may take, in seconds, on top of what comes before it.
@@ -125,13 +125,10 @@ fn has_same_shapes(a: &Editable, b: &Editable) -> bool {
 
 /// Renders a task: first smaller pictures, if it is a preview.
 fn run(shared: &Shared, prepared: &Prepared<'_>, task: &Task, rate: &mut f64) -> Result<Ended> {
-    shared.tell(task.job, |status| {
-        status.stage = Stage::Rendering;
-        status.build_seconds = prepared.build_seconds();
-    });
+    shared.tell(task.job, |status| status.stage = Stage::Rendering);
     let full = &task.order.settings;
     let target = match &task.order.purpose {
-        Purpose::Final(wanted) => Some(Target::new(wanted.clone())?),
+        Purpose::Final(wanted) => Some((wanted, target(shared, task, wanted)?)),
         Purpose::Preview => {
             for settings in coarser(full, *rate) {
                 let follow = Follow::new(shared, task, prepared, &settings, true, None);
@@ -149,17 +146,30 @@ fn run(shared: &Shared, prepared: &Prepared<'_>, task: &Task, rate: &mut f64) ->
     let follow = Follow::new(shared, task, prepared, full, false, look);
     let rendered = prepared.render(&task.world, &task.order.editable.camera, full, &follow)?;
     learn(rate, &rendered);
-    if shared.is_newest(task.job) && rendered.film.samples() > 0 {
-        follow.show(rendered.film.means().collect(), rendered.film.samples(), &rendered.film);
+    let samples = rendered.film.samples();
+    if shared.is_newest(task.job) && samples > 0 {
+        // A picture that was stopped is mostly on the screen already, and the next one must not wait.
+        if rendered.ended != Ended::Cancelled || !follow.has_shown(samples) {
+            follow.show(rendered.film.means().collect(), samples, &rendered.film);
+        }
         conclude(shared, task, &rendered);
     }
-    if let Some(target) = target
-        && rendered.film.samples() > 0
+    if let (Some((wanted, target)), Some(digest)) = (target, task.digest)
+        && samples > 0
     {
-        let path = write(&target, task, &rendered)?;
-        shared.tell(task.job, |status| status.written = path);
+        write(&target, wanted, task, digest, &rendered)?;
+        shared.tell(task.job, |status| status.written = Some(target.picture().path().to_path_buf()));
     }
     Ok(rendered.ended)
+}
+
+/// The place of a final picture.
+fn target(shared: &Shared, task: &Task, wanted: &Wanted) -> Result<Target> {
+    if let Err(why) = Destination::new(&wanted.image) {
+        shared.tell(task.job, |status| status.is_file_refused = true);
+        return Err(why);
+    }
+    Target::new(wanted.clone())
 }
 
 /// Tells the last numbers of a render.
@@ -175,29 +185,24 @@ fn conclude(shared: &Shared, task: &Task, rendered: &Rendered) {
     });
 }
 
-/// Writes a final picture, as the command line does.
-fn write(target: &Target, task: &Task, rendered: &Rendered) -> Result<Option<PathBuf>> {
-    let Some(digest) = task.digest else { return Ok(None) };
-    let (width, height) = (task.order.settings.width, task.order.settings.height);
-    let view = View::new(&task.world, &task.order.editable.camera, width, height);
+/// Writes a final picture, as the command line does; if that fails, its film is kept elsewhere.
+fn write(target: &Target, wanted: &Wanted, task: &Task, digest: Digest, rendered: &Rendered) -> Result<()> {
+    let (scene, settings) = (&*task.order.loaded.path, &task.order.settings);
+    let view = View::new(&task.world, &task.order.editable.camera, settings.width, settings.height);
     let provenance = Provenance {
-        scene: &task.order.loaded.path,
+        scene,
         digest,
         view: &view,
-        settings: &task.order.settings,
+        settings,
         samples: rendered.film.samples(),
         is_clamped: rendered.counters.clamped > 0,
-        exposure: wanted_exposure(&task.order.purpose),
+        exposure: wanted.exposure,
     };
-    target.write(&provenance, rendered)?;
-    Ok(Some(target.picture().path().to_path_buf()))
-}
-
-fn wanted_exposure(purpose: &Purpose) -> f64 {
-    match purpose {
-        Purpose::Final(Wanted { exposure, .. }) => *exposure,
-        Purpose::Preview => 0.0,
-    }
+    let Err(why) = target.write(&provenance, rendered) else { return Ok(()) };
+    let recipe = Recipe::new(scene, digest, settings)?;
+    let origin = Origin { recipe, view, brightest: rendered.brightest };
+    let rescue = Rescue { image: &wanted.image, beside: Some(scene), options: Some(wanted.options()) };
+    Err(rescue.keep(&origin, rendered, why))
 }
 
 /// Remembers how fast samples are taken.
