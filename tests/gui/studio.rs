@@ -154,12 +154,13 @@ fn enter_renders_the_file_of_the_command_line() {
     studio.kept.knobs.noise = Some(0.2);
     studio.kept.knobs.samples = 64;
     studio.render();
-    until(&mut studio, "a file", |studio| studio.session.status().written.is_some());
+    until(&mut studio, "a word of the file", |studio| {
+        studio.notice.as_ref().is_some_and(|notice| notice.text.ends_with("window.png is written"))
+    });
     let arguments = "balls.yaml 48 27 64 8 line.png --accel native --exposure 0.5 --noise 0.2";
     desk.command(&arguments.split(' ').collect::<Vec<_>>());
     assert!(desk.read("window.png") == desk.read("line.png"));
     assert!(studio.is_final());
-    assert!(studio.notice.as_ref().is_some_and(|notice| notice.text.ends_with("window.png is written")));
 }
 
 #[test]
