@@ -29,7 +29,7 @@ fn film(region: Region) -> Film {
     for chunk in 0..7 {
         let light =
             region.pixels(37, 23).map(|pixel| Rgb::splat(libm::exp((pixel % 50) as f64 + chunk as f64)));
-        film.add(chunk, Sums::of_scramble(3, 4, light.collect())).expect("a new chunk");
+        film.add(chunk, Sums::of_scramble(3, 4, light.collect(), Vec::new())).expect("a new chunk");
     }
     film
 }
@@ -127,7 +127,7 @@ fn files_that_claim_more_than_they_hold_are_refused_without_allocating_it() {
     let path = folder.path().join("a.film");
     let node = |first: u64, chunks: u64, samples: u64| {
         format!(
-            r#"{{"chunk":16,"nodes":[{{"first":{first},"chunks":{chunks},"samples":{samples},"counts":[{samples},0,0,0,0,0,0,0],"halves":true,"greys":"all"}}]}}"#
+            r#"{{"chunk":16,"nodes":[{{"first":{first},"chunks":{chunks},"samples":{samples},"counts":[{samples},0,0,0,0,0,0,0],"halves":true,"greys":"all","deviations":false}}]}}"#
         )
     };
     for header in [
@@ -150,7 +150,7 @@ fn files_that_claim_more_than_they_hold_are_refused_without_allocating_it() {
 fn sums_that_are_no_light_are_refused() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("a.film");
-    let header = r#"{"chunk":1,"nodes":[{"first":0,"chunks":1,"samples":1,"counts":[0,0,0,0,0,0,0,0],"halves":false,"greys":"unknown"}]}"#;
+    let header = r#"{"chunk":1,"nodes":[{"first":0,"chunks":1,"samples":1,"counts":[0,0,0,0,0,0,0,0],"halves":false,"greys":"unknown","deviations":false}]}"#;
     for (value, is_light) in [(0.0, true), (3.5, true), (-1.0, false), (f64::NAN, false)] {
         file(&path, header, &[value, 1.0, 1.0].map(f64::to_le_bytes).concat());
         let (record, mut reader): (FilmRecord, Reader) = Reader::open(&path).expect("a film file");

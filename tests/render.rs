@@ -97,9 +97,9 @@ fn every_pixel_gets_its_own_samples() {
         let sum = |x, y| samples.clone().map(|i| synthetic(x, y, i, &mut Counters::default())).sum();
         let sums = (0..settings.height).flat_map(|y| (0..settings.width).map(move |x| (x, y)));
         let sums = sums.map(|(x, y)| sum(x, y)).collect();
-        film.add(chunk, Sums::of_scramble(0, samples.end - samples.start, sums)).expect("chunks in order");
+        film.add(chunk, Sums::plain(samples.end - samples.start, sums)).expect("chunks in order");
     }
-    assert_eq!(run(&settings).film, film);
+    assert!(run(&settings).film.means().eq(film.means()));
 }
 
 #[test]

@@ -8,7 +8,9 @@
 mod error_bar;
 pub mod file;
 mod frame;
+mod halving;
 mod picture_error;
+mod ratio;
 mod region;
 mod stops;
 mod student;
@@ -16,8 +18,10 @@ mod sums;
 
 pub use error_bar::ErrorBar;
 pub use frame::{Frame, Run};
+pub use halving::{Halving, Pair};
 pub(crate) use picture_error::relative_weight;
 pub use picture_error::{Estimate, PictureError, PictureErrorSum, Pixels};
+pub(crate) use ratio::{Chosen, Measures, Whole};
 pub use region::Region;
 pub use stops::{BLOCK, HALVES, Stops, samples_of_halves};
 pub use student::quantile;
@@ -71,6 +75,11 @@ impl Film {
     /// Rows of the picture.
     pub fn height(&self) -> u32 {
         self.frame.height()
+    }
+
+    /// Samples of a chunk.
+    pub fn chunk(&self) -> u64 {
+        self.chunk
     }
 
     /// The pixels that it holds.

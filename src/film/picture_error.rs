@@ -1,7 +1,7 @@
 //! The error of a whole picture, estimated without knowing the truth.
 
+use super::Film;
 use super::student::quantile;
-use super::{Film, grey};
 use crate::math::Rgb;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -89,10 +89,30 @@ impl PictureErrorSum {
             Pixels::All { .. } => self.count,
             Pixels::Some { of, .. } => of,
         };
-        let (relative, relative_degrees) = self.relative.mean(pixels, self.count)?;
-        let (variance, variance_degrees) = self.variance.mean(pixels, self.count)?;
-        let mean = self.mean / all;
-        let standard_error = (variance / all).sqrt();
+        let relative = self.relative.mean(pixels, self.count)?;
+        let variance = self.variance.mean(pixels, self.count)?;
+        PictureError::new(self.mean / all, all, relative, variance)
+    }
+
+    fn with(mut self, other: &PictureErrorSum) -> PictureErrorSum {
+        self.count += other.count;
+        self.mean += other.mean;
+        self.relative.join(&other.relative);
+        self.variance.join(&other.variance);
+        self
+    }
+}
+
+impl PictureError {
+    /// From the mean of so many pixels, the means over them of the squares of the relative error and of the variance, each with
+    /// its degrees of freedom; `None` where a number is not finite.
+    pub(super) fn new(
+        mean: f64,
+        pixels: f64,
+        (relative, relative_degrees): (f64, f64),
+        (variance, variance_degrees): (f64, f64),
+    ) -> Option<PictureError> {
+        let standard_error = (variance / pixels).sqrt();
         let half_width = quantile(variance_degrees) * standard_error;
         // A mean of squares is about a chi-square variable: its logarithm has the variance 2 / degrees, that of its root a
         // quarter of that.
@@ -105,14 +125,6 @@ impl PictureErrorSum {
             is_doubtful: variance_degrees.min(relative_degrees) < FEW_DEGREES,
         };
         (root.is_finite() && mean.is_finite() && half_width.is_finite()).then_some(error)
-    }
-
-    fn with(mut self, other: &PictureErrorSum) -> PictureErrorSum {
-        self.count += other.count;
-        self.mean += other.mean;
-        self.relative.join(&other.relative);
-        self.variance.join(&other.variance);
-        self
     }
 }
 
@@ -183,16 +195,14 @@ impl Film {
         Some(sum)
     }
 
-    /// The sum over the pixels of the means of their components.
-    pub(crate) fn total(&self) -> f64 {
-        let weight = 1.0 / self.samples().max(1) as f64;
-        let row = |pixels: Range<usize>| pixels.map(|pixel| grey(self.mean(pixel, weight))).sum();
-        let rows: Vec<f64> = self.rows().into_par_iter().map(row).collect();
-        rows.iter().sum()
+    /// The deviation of the first samples of a pixel, where it is known.
+    pub(crate) fn deviation(&self, pixel: usize) -> Option<f64> {
+        let first = self.nodes.first().filter(|node| node.first == 0)?;
+        first.sums.deviations.get(pixel).map(|&deviation| deviation.into())
     }
 
     /// The pixels in runs as long as the picture's rows.
-    fn rows(&self) -> Vec<Range<usize>> {
+    pub(super) fn rows(&self) -> Vec<Range<usize>> {
         let (width, pixels) = (self.width() as usize, self.pixels());
         (0..pixels).step_by(width).map(|start| start..pixels.min(start + width)).collect()
     }

@@ -1,5 +1,6 @@
 //! The sums of a run of chunks, and how two of them become one.
 
+use super::Pair;
 use crate::math::Rgb;
 use crate::sampling::SCRAMBLES;
 use rayon::prelude::*;
@@ -15,6 +16,9 @@ pub struct Sums {
     pub odd: Vec<Rgb>,
     /// The same by scramble.
     pub greys: Greys,
+    /// One a pixel: how far the halves of its first samples differ (see [`Pair`]), as many as [`Halving`](super::Halving) says.
+    /// Kept with the first chunk's; else, and where that is not known, empty.
+    pub deviations: Vec<f32>,
     /// Samples per pixel in each scramble.
     pub counts: [u64; SCRAMBLES],
 }
@@ -33,15 +37,16 @@ pub enum Greys {
 impl Sums {
     /// Sums that can't tell their error.
     pub fn plain(samples: u64, radiance: Vec<Rgb>) -> Sums {
-        Sums { samples, radiance, odd: Vec::new(), greys: Greys::Unknown, counts: [0; SCRAMBLES] }
+        let (odd, deviations) = (Vec::new(), Vec::new());
+        Sums { samples, radiance, odd, greys: Greys::Unknown, deviations, counts: [0; SCRAMBLES] }
     }
 
-    /// Sums of samples that all lie in one scramble.
-    pub fn of_scramble(scramble: usize, samples: u64, radiance: Vec<Rgb>) -> Sums {
+    /// Sums of samples that all lie in one scramble, and their deviations if they are known.
+    pub fn of_scramble(scramble: usize, samples: u64, radiance: Vec<Rgb>, deviations: Vec<f32>) -> Sums {
         let greys = radiance.par_iter().map(|&sum| grey(sum) as f32).collect();
         let mut counts = [0; SCRAMBLES];
         counts[scramble] = samples;
-        Sums { samples, radiance, odd: Vec::new(), greys: Greys::One(scramble, greys), counts }
+        Sums { samples, radiance, odd: Vec::new(), greys: Greys::One(scramble, greys), deviations, counts }
     }
 
     /// The radiance of a half of the scrambles.
@@ -51,7 +56,12 @@ impl Sums {
 
     /// The sums of both.
     pub(super) fn join(self, other: Sums) -> Sums {
-        let Sums { samples, mut radiance, mut odd, greys, counts } = self;
+        let Sums { samples, mut radiance, mut odd, greys, mut deviations, counts } = self;
+        let counts_of_both = [samples, other.samples];
+        let halves = radiance.iter().zip(&other.radiance).map(|(&left, &right)| [grey(left), grey(right)]);
+        deviations.iter_mut().zip(halves).for_each(|(deviation, sums)| {
+            *deviation = Pair { sums, counts: counts_of_both }.deviation() as f32
+        });
         radiance.iter_mut().zip(&other.radiance).for_each(|(sum, &other)| *sum += other);
         odd.iter_mut().zip(&other.odd).for_each(|(sum, &other)| *sum += other);
         Sums {
@@ -59,6 +69,7 @@ impl Sums {
             radiance,
             odd,
             greys: greys.join(other.greys),
+            deviations,
             counts: std::array::from_fn(|i| counts[i] + other.counts[i]),
         }
     }

@@ -22,7 +22,7 @@ pub(super) struct Cells {
 /// What a cell holds.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Layout {
-    /// The sum of the radiance of samples that all lie in this scramble.
+    /// The sum of the radiance of samples that all lie in this scramble, and their deviation.
     Plain(usize),
     /// Also, by scramble, the sums of the means of the components.
     Scrambled,
@@ -46,7 +46,13 @@ impl Layout {
 
     /// Numbers in a cell.
     pub(super) fn stride(self) -> usize {
-        self.greys().end
+        self.deviation().map_or(self.greys().end, |deviation| deviation + 1)
+    }
+
+    /// Where in a cell the deviation is.
+    #[inline]
+    pub(super) fn deviation(self) -> Option<usize> {
+        matches!(self, Layout::Plain(_)).then_some(RADIANCE)
     }
 
     /// Where in a cell the sums by scramble are.
@@ -138,19 +144,27 @@ impl Cells {
         a + b
     }
 
+    /// The deviation of a pixel, where it is known.
+    pub(super) fn deviation(&self, pixel: usize) -> Option<f64> {
+        self.layout.deviation().map(|at| self.cell(pixel)[at])
+    }
+
     /// What the film keeps.
     pub(super) fn into_sums(self) -> Sums {
         let Cells { samples, layout, first, scrambles, .. } = self;
         let cells = || self.values.par_chunks_exact(layout.stride());
         let half = |half: usize| cells().map(|cell| layout.radiance(cell)[half]).collect();
         if let Layout::Plain(scramble) = layout {
-            return Sums::of_scramble(scramble, samples, half(0));
+            let deviation = |cell: &[f64]| cell[RADIANCE] as f32;
+            let deviations = if first == 0 { cells().map(deviation).collect() } else { Vec::new() };
+            return Sums::of_scramble(scramble, samples, half(0), deviations);
         }
         let odd = if layout == Layout::Halved { half(1) } else { Vec::new() };
         let start = layout.greys().start;
         let greys = cells().map(|cell| std::array::from_fn(|i| cell[start + i] as f32)).collect();
         let (before, after) = (scrambles.counts(first), scrambles.counts(first + samples));
         let counts = std::array::from_fn(|i| after[i] - before[i]);
-        Sums { samples, radiance: half(0), odd, greys: Greys::All(greys), counts }
+        let deviations = Vec::new();
+        Sums { samples, radiance: half(0), odd, greys: Greys::All(greys), deviations, counts }
     }
 }

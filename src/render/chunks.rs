@@ -11,7 +11,7 @@ use super::so_far::SoFar;
 use super::tile::{self, Pass, Tile, Work};
 use super::{Ended, Rendered, Settings, Watch};
 use crate::error::Result;
-use crate::film::{Film, PictureError};
+use crate::film::{Film, Halving, PictureError};
 use crate::integrator::Counters;
 use crate::math::Rgb;
 use rayon::prelude::*;
@@ -218,7 +218,8 @@ where
         let error_pixels = self.error_pixels.as_ref().filter(|_| samples.start < scrambles.first_round());
         let (clamp, blocks) = (self.settings.clamp, self.blocks.as_ref());
         let side = self.settings.tile_side_for(self.open_pixels());
-        let pass = Pass { samples, before: cells.samples, clamp, scrambles, blocks };
+        let halving = Halving::new(self.settings.chunk.into());
+        let pass = Pass { samples, before: cells.samples, clamp, scrambles, halving, blocks };
         let cancelled = || self.watch.cancelled() || self.pace.is_over();
         let (work, sets) = rayon::join(
             || {
@@ -268,7 +269,7 @@ where
         let has_scrambles = self.film.samples() >= self.settings.scrambles().first_round();
         match &self.error_pixels {
             _ if has_scrambles => self.film.picture_error(),
-            Some(pixels) if self.film.samples() > 0 => pixels.error(&self.film),
+            Some(pixels) if self.film.samples() > 0 => pixels.error(&self.film, None),
             _ => None,
         }
     }
@@ -278,7 +279,7 @@ where
         let samples = self.film.samples() + cells.samples;
         let error = match (&self.blocks, &self.error_pixels) {
             (Some(blocks), _) => blocks.error(),
-            (None, Some(pixels)) if is_whole(self.settings) => self.error_so_far(pixels, samples, cells),
+            (None, Some(pixels)) if is_whole(self.settings) => self.error_so_far(pixels, cells),
             _ => None,
         };
         if let Some(error) = error {
@@ -309,14 +310,14 @@ where
         Some(self.pace.left().unwrap_or(f64::INFINITY).min(sampling))
     }
 
-    /// The relative error of the film and the cells, at the pixels that are chosen for it.
-    fn error_so_far(&self, pixels: &ErrorPixels, samples: u64, cells: &Cells) -> Option<f64> {
+    /// The relative error of the film and the cells; once the scrambles tell it, at the chosen pixels alone.
+    fn error_so_far(&self, pixels: &ErrorPixels, cells: &Cells) -> Option<f64> {
         let has_scrambles = self.film.samples() >= self.settings.scrambles().first_round();
-        let sum = if has_scrambles {
-            self.film.error_sum(pixels.chosen())?
+        let error = if has_scrambles {
+            self.film.error_sum(pixels.chosen())?.finish(pixels.kind())
         } else {
-            pixels.estimate(samples, |pixel| self.film.sum(pixel) + cells.sum(pixel))
+            pixels.error(&self.film, Some(cells))
         };
-        sum.finish(pixels.kind()).map(|error| error.relative.value)
+        error.map(|error| error.relative.value)
     }
 }

@@ -15,12 +15,14 @@ pub fn film_bytes(settings: &Settings) -> u64 {
     let chunk = u64::from(settings.chunk.max(1));
     let samples = if settings.samples == 0 { 1 << 16 } else { settings.samples };
     let radiance = size_of::<Rgb>() as u64;
+    // Of one scramble there are deviations.
+    let greys = |count: usize| (size_of::<f32>() * count) as u64;
     let only = |samples: u64| settings.scrambles().only(0..samples.max(1)).is_some();
     let bytes = |samples: u64| match Layout::new(settings, 0) {
-        Layout::Plain(_) if !only(samples) => radiance + (size_of::<f32>() * SCRAMBLES) as u64,
-        Layout::Plain(_) => radiance + size_of::<f32>() as u64,
-        Layout::Scrambled => radiance + (size_of::<f32>() * SCRAMBLES) as u64,
-        Layout::Halved => 2 * radiance + (size_of::<f32>() * SCRAMBLES) as u64,
+        Layout::Plain(_) if !only(samples) => radiance + greys(SCRAMBLES + 1),
+        Layout::Plain(_) => radiance + greys(2),
+        Layout::Scrambled => radiance + greys(SCRAMBLES),
+        Layout::Halved => 2 * radiance + greys(SCRAMBLES),
     };
     let nodes = Film::most_nodes(samples.div_ceil(chunk));
     let film: u64 =

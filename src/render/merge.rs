@@ -212,7 +212,7 @@ impl<'s> Merge<'s> {
         let has_scrambles = film.samples() >= settings.scrambles().first_round();
         let error = match &error_pixels {
             _ if has_scrambles => film.picture_error(),
-            Some(pixels) => pixels.error(&film),
+            Some(pixels) => pixels.error(&film, None),
             None => None,
         };
         Ok(Rendered {

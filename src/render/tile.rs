@@ -3,7 +3,7 @@
 use super::adaptive::Adaptive;
 use super::cells::{Cells, Layout};
 use super::{FIREFLY, FIREFLY_BEFORE};
-use crate::film::{Frame, Run, grey};
+use crate::film::{Frame, Halving, Pair, Run, grey};
 use crate::integrator::Counters;
 use crate::math::Rgb;
 use crate::sampling::{Place, Scrambles};
@@ -20,6 +20,8 @@ pub(super) struct Pass<'a> {
     pub(super) clamp: Option<f64>,
     /// Where they lie.
     pub(super) scrambles: Scrambles,
+    /// Whose halves are compared.
+    pub(super) halving: Halving,
     /// Which blocks get them, if not all.
     pub(super) blocks: Option<&'a Adaptive>,
 }
@@ -94,6 +96,7 @@ impl Tile<'_> {
                 }
                 let mut sums = layout.radiance(cell);
                 let firefly = pass.firefly(sums[0] + sums[1]);
+                let before = grey(sums[0]);
                 for index in pass.samples.clone() {
                     let place = pass.scrambles.place(index);
                     let radiance = pass.take(x, y, place, sample, firefly, &mut work.counters);
@@ -103,6 +106,10 @@ impl Tile<'_> {
                     }
                 }
                 layout.set_radiance(cell, sums);
+                if let Some(at) = layout.deviation().filter(|_| pass.is_compared()) {
+                    let counts = [pass.before, pass.samples.end - pass.samples.start];
+                    cell[at] = Pair { sums: [before, grey(sums[0]) - before], counts }.deviation();
+                }
                 work.samples += pass.samples.end - pass.samples.start;
             }
         }
@@ -134,6 +141,11 @@ impl Pass<'_> {
     {
         let radiance = sample(x, y, place.sample_index(), counters);
         self.judge(radiance, firefly, counters)
+    }
+
+    /// Whether it is the second half of samples whose halves are compared.
+    fn is_compared(&self) -> bool {
+        self.samples.start == self.before && self.halving.compares(self.samples.end)
     }
 
     /// Above which component a sample of a pixel is a firefly, given the sum of the pixel's samples in the chunk.

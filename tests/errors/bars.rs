@@ -63,7 +63,8 @@ fn a_film_finds_the_sums_of_its_scrambles() {
         let samples = 4 * chunk..4 * chunk + 4;
         let scramble = scrambles.only(samples.clone()).expect("4 divides 8");
         let sum = samples.map(value).sum::<f64>();
-        film.add(chunk, Sums::of_scramble(scramble, 4, vec![Rgb::splat(sum)])).expect("a new chunk");
+        film.add(chunk, Sums::of_scramble(scramble, 4, vec![Rgb::splat(sum)], Vec::new()))
+            .expect("a new chunk");
     }
     let (mut sums, counts) = ([0.0; SCRAMBLES], scrambles.counts(160));
     (0..160).for_each(|sample| sums[scrambles.place(sample).scramble] += value(sample));

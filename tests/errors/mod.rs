@@ -2,6 +2,7 @@
 
 mod bars;
 mod coverage;
+mod halving;
 mod noise;
 mod picture;
 mod scenes;

@@ -75,6 +75,26 @@ fn a_few_pixels_tell_the_error_of_one_scramble() {
     assert_honest(&settings(16, 128));
 }
 
+/// Light that one sample in a thousand meets: 19 of a picture, 8 of those of the chosen pixels.
+#[test]
+fn light_that_the_chosen_pixels_hardly_meet_is_counted() {
+    let rare = |seed: u64| {
+        let sampler = Independent::new(seed);
+        move |x: u32, y: u32, index: u64, _: &mut Counters| {
+            let is_met = sampler.set(sampler.pixel(x, y), index, 0).one(0) < 1e-3;
+            if is_met { Rgb::splat(1000.0) } else { Rgb::ZERO }
+        }
+    };
+    let held = (0..200).filter(|&seed| {
+        let settings = Settings { seed, ..settings(16, 128) };
+        let rendered = accumulate(&settings, &Unwatched, rare(seed)).expect("a render without trouble");
+        let mean = error(&rendered).mean;
+        mean.low <= 1.0 && 1.0 <= mean.high
+    });
+    // At 4 deviations of the binomial distribution, as above.
+    assert!((178..=200).contains(&held.count()));
+}
+
 #[test]
 fn unequally_long_scrambles_tell_the_error() {
     assert_honest(&settings(21, 2));

@@ -24,6 +24,8 @@ struct NodeRecord {
     /// Whether the radiance is kept by halves.
     halves: bool,
     greys: GreysRecord,
+    /// Whether the deviations are known.
+    deviations: bool,
 }
 
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
@@ -53,6 +55,7 @@ impl FilmRecord {
                 Greys::One(scramble, _) => GreysRecord::One(scramble),
                 Greys::All(_) => GreysRecord::All,
             },
+            deviations: !node.sums.deviations.is_empty(),
         };
         FilmRecord { chunk: film.chunk, nodes: film.nodes.iter().map(node).collect() }
     }
@@ -72,6 +75,7 @@ impl FilmRecord {
                 Greys::One(_, greys) => writer.floats(greys.iter().copied())?,
                 Greys::All(greys) => writer.floats(greys.iter().flatten().copied())?,
             }
+            writer.floats(sums.deviations.iter().copied())?;
         }
         Ok(())
     }
@@ -119,7 +123,8 @@ impl NodeRecord {
                 Greys::All(values.as_chunks::<SCRAMBLES>().0.to_vec())
             }
         };
-        let sums = Sums { samples: self.samples, radiance, odd, greys, counts: self.counts };
+        let deviations = if self.deviations { reader.floats(count)? } else { Vec::new() };
+        let sums = Sums { samples: self.samples, radiance, odd, greys, deviations, counts: self.counts };
         Ok(Node { first: self.first, chunks: self.chunks, sums })
     }
 }
@@ -160,7 +165,8 @@ impl Node {
             Greys::All(_) => Greys::All(vec![[0.0; SCRAMBLES]; pixels]),
         };
         let (radiance, odd) = (plane(&sums.radiance), plane(&sums.odd));
-        let sums = Sums { samples: sums.samples, radiance, odd, greys, counts: sums.counts };
+        let deviations = if sums.deviations.is_empty() { Vec::new() } else { vec![0.0; pixels] };
+        let sums = Sums { samples: sums.samples, radiance, odd, greys, deviations, counts: sums.counts };
         Node { first: *first, chunks: *chunks, sums }
     }
 
@@ -176,6 +182,7 @@ impl Node {
             && (self.first, self.chunks, a.samples, a.counts)
                 == (other.first, other.chunks, b.samples, b.counts)
             && a.odd.is_empty() == b.odd.is_empty()
+            && a.deviations.is_empty() == b.deviations.is_empty()
     }
 }
 
@@ -185,6 +192,9 @@ impl Sums {
         self.radiance[pixel] = from.radiance[source];
         if !self.odd.is_empty() {
             self.odd[pixel] = from.odd[source];
+        }
+        if !self.deviations.is_empty() {
+            self.deviations[pixel] = from.deviations[source];
         }
         match (&mut self.greys, &from.greys) {
             (Greys::One(_, to), Greys::One(_, from)) => to[pixel] = from[source],
@@ -212,6 +222,7 @@ impl Film {
                 radiance: vec![Rgb::ZERO; pixels],
                 odd: vec![Rgb::ZERO; pixels],
                 greys: Greys::All(vec![[0.0; SCRAMBLES]; pixels]),
+                deviations: Vec::new(),
                 counts: std::array::from_fn(|i| high[i] - low[i]),
             };
             self.insert(Node { first, chunks, sums })?;
