@@ -61,7 +61,9 @@ fn a_firefly_is_counted_and_kept() {
 #[test]
 fn a_firefly_is_brighter_than_the_named_multiple_of_the_mean_before_it() {
     let last_is = |value: f64| {
-        run(&small(16), move |_, _, i, _| Rgb::splat(if i == 15 { value } else { (i % 2) as f64 * 0.5 }))
+        run(&small(16), move |_, _, i, _| {
+            Rgb::splat(if i == 15 { value } else { 0.75 * f64::from(i % 3 == 0) })
+        })
     };
     assert_eq!(last_is(0.25 * FIREFLY).counters.fireflies, 0);
     assert_eq!(last_is((0.25 * FIREFLY).next_up()).counters.fireflies, PIXELS);

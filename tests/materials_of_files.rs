@@ -88,6 +88,7 @@ fn statements_become_the_four_materials() {
     assert_eq!(kind("Ks 0.5\nillum 3\n"), MaterialKind::Reflective { color: half, specularity: 1.0 });
     // 1 - 2 / sqrt(14 + 2).
     assert_eq!(kind("Kd 0\nKs 0.5\nNs 14\n"), MaterialKind::Reflective { color: half, specularity: 0.5 });
+    assert_eq!(kind("Ks 0.5\nNs 14\n"), MaterialKind::Reflective { color: half, specularity: 0.5 });
     assert_eq!(kind("Kd 1\nd 0.3\nNi 2\n"), MaterialKind::Refractive { color: Rgb::ONE, ratio: 0.5 });
     assert_eq!(kind("Tr 0.5\nTf 0.5\nNi 1.25\n"), MaterialKind::Refractive { color: half, ratio: 0.8 });
     // Half of 0.5 + 0.5 is the coat, each as bright as its share asks.

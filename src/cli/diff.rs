@@ -4,6 +4,8 @@ use super::arguments::DiffArguments;
 use super::compare::DIFFERENT;
 use super::console::{printable, say};
 use super::event;
+use crate::error::Error;
+use crate::output::same_file;
 use crate::picture::{self, Destination};
 use crate::study::difference::{Difference, Metrics, Worst};
 use serde::Serialize;
@@ -26,6 +28,13 @@ struct Record<'r> {
 
 /// Compares and prints; returns the exit code.
 pub(super) fn run(job: &DiffArguments) -> anyhow::Result<u8> {
+    if let Some(output) = &job.output
+        && let Some(input) = [&job.picture, &job.reference].into_iter().find(|input| same_file(input, output))
+    {
+        return Err(
+            Error::Usage(format!("{} is compared: choose another name for -o", input.display())).into()
+        );
+    }
     let destination = job.output.as_deref().map(Destination::new).transpose()?;
     let [picture, reference] = [picture::read(&job.picture)?, picture::read(&job.reference)?];
     let difference = Difference::new(&picture, &reference)?;

@@ -19,7 +19,7 @@ pub(super) fn run(arguments: &MergeArguments) -> anyhow::Result<u8> {
     // Whatever can be known to fail fails before the work.
     let target = Target::new(arguments.wanted(image))?;
     let bars = arguments.error_bars.as_deref().map(error_bars).transpose()?;
-    if bars.as_ref().is_some_and(|bars| target.holds(bars)) {
+    if bars.as_ref().is_some_and(|bars| target.holds(bars.path())) {
         return Err(Error::Usage("--error-bars needs a file of its own, beside the picture's".into()).into());
     }
     let mut partial = target.partial_paths();

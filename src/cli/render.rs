@@ -10,7 +10,7 @@ use super::{describe, findings, interrupt};
 use crate::error::{Error, Result};
 use crate::film::PictureError;
 use crate::film::file::FilePlace;
-use crate::output::{self, Aov, Provenance, Target};
+use crate::output::{self, Aov, Provenance, Target, same_file};
 use crate::picture::{Destination, Format};
 use crate::render::{Ended, Estimate, Origin, Recipe, Rendered, View, in_pool, resume};
 use crate::scene;
@@ -38,10 +38,20 @@ impl Output {
         }
         let target = Target::new(job.wanted())?;
         let error_bars = job.error_bars.as_deref().map(error_bars).transpose()?;
-        if error_bars.as_ref().is_some_and(|bars| target.holds(bars)) {
+        if error_bars.as_ref().is_some_and(|bars| target.holds(bars.path())) {
             return Err(Error::Usage("--error-bars needs a file of its own, beside the picture's".into()));
         }
         Ok(Output::Picture(Box::new(target), error_bars))
+    }
+
+    /// Whether this file is to be replaced.
+    fn replaces(&self, path: &Path) -> bool {
+        match self {
+            Output::Picture(target, bars) => {
+                target.holds(path) || bars.as_ref().is_some_and(|bars| same_file(bars.path(), path))
+            }
+            Output::Part(place) => same_file(place.path(), path),
+        }
     }
 
     /// Files that may be half written while the program runs.
@@ -76,6 +86,9 @@ pub(super) fn run(job: &Job) -> anyhow::Result<u8> {
     // Whatever can be known to fail fails before the work.
     job.settings.check()?;
     let output = Output::new(job)?;
+    if job.checkpoint.as_ref().is_some_and(|path| output.replaces(path)) {
+        return Err(Error::Usage("--checkpoint needs a file of its own, beside the picture's".into()).into());
+    }
     let checkpoints = saving::checkpoint_place(job, output.part())?;
     let mut partial = output.partial_paths();
     partial.extend(checkpoints.iter().map(|place| place.partial_path().to_path_buf()));
@@ -83,6 +96,10 @@ pub(super) fn run(job: &Job) -> anyhow::Result<u8> {
 
     let (scene, load) = timed(|| in_pool(&job.settings, || scene::load(&job.scene)));
     let scene = scene?;
+    if let Some(path) = scene.files.iter().find(|path| output.replaces(path)) {
+        let why = format!("{} belongs to the scene: choose another name for what is written", path.display());
+        return Err(Error::Usage(why).into());
+    }
     if !job.quiet {
         scene.warnings.iter().for_each(say);
         say(describe::scene(&scene.desc));
@@ -123,6 +140,7 @@ pub(super) fn run(job: &Job) -> anyhow::Result<u8> {
 
     let reporter = Reporter::new(job);
     let keeper = Keeper::new(&reporter, checkpoints.as_ref(), &origin, job.every);
+    interrupt::ask_first();
     let rendered = resume(&world, &camera, &job.settings, &keeper, state);
     reporter.finish();
     let rendered = rendered?;
@@ -197,7 +215,8 @@ pub(super) fn write_picture(
         && !output::write_error_bars(&rendered.film, error_bars)?
     {
         say(
-            "warning: no error bars were written: they need 16 samples, none of which may be too large for f32",
+            "warning: no error bars were written: they need 16 samples, none of which may be too large for f32; parts \
+             need --scramble-length 2",
         );
     }
     Ok(())

@@ -4,7 +4,7 @@ use super::arguments::Job;
 use super::console::say;
 use super::farm;
 use crate::error::{Error, Result};
-use crate::film::file::FilePlace;
+use crate::film::file::{FilePlace, Reader};
 use crate::output::{FILM_EXTENSION, Rescue};
 use crate::render::{FileKind, FilmFile, OF_A_TASK, Origin, Rendered, State};
 use std::fs;
@@ -63,16 +63,19 @@ pub(super) enum Found {
 /// Looks for the part, or for what an interrupted task left of it.
 ///
 /// # Errors
-/// A whole file of another render, which is not to be lost; a damaged one is.
+/// Anything but a damaged film file, which helps nobody: a part of another render, any other file.
 pub(super) fn existing_part(job: &Job, place: &FilePlace, origin: &Origin) -> Result<Found> {
     if !place.path().exists() {
         return Ok(Found::Nothing);
     }
     let file = match FilmFile::open(place.path()) {
         Ok(file) => file,
-        Err(error) => {
+        Err(error) if Reader::is_damaged(place.path()) => {
             say(format_args!("warning: {error}; it will be replaced"));
             return Ok(Found::Nothing);
+        }
+        Err(error) => {
+            return Err(Error::Film(format!("{error}; remove it, or choose another name")));
         }
     };
     if file.kind() == FileKind::Checkpoint {

@@ -1,5 +1,7 @@
 //! The scene file: read beside the window's thread, watched, and kept with its text.
 
+pub use crate::output::{same_file, whole_path};
+
 use crate::error::{Diagnostic, Error, Severity};
 use crate::output::TextFile;
 use crate::scene::edit::Editable;
@@ -88,16 +90,6 @@ pub fn check_unchanged(loaded: &Loaded, path: &Path) -> Result<(), Error> {
         }
         _ => Ok(()),
     }
-}
-
-/// Whether two paths lead to one file.
-pub fn same_file(a: &Path, b: &Path) -> bool {
-    a == b || whole_path(a) == whole_path(b)
-}
-
-/// A path from the root on and without links, or as it is where nothing is there.
-pub fn whole_path(path: &Path) -> PathBuf {
-    fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf())
 }
 
 /// Writes an edited text to a file.

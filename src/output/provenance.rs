@@ -44,7 +44,8 @@ const SETTINGS: [Setting; 13] = [
     }),
     ("noise", Some("--noise"), |p, _| p.settings.noise.map(|target| target.to_string())),
     ("scrambleLength", Some("--scramble-length"), |p, _| {
-        p.settings.scramble_length.map(|length| length.to_string())
+        let asked = p.settings.scramble_length;
+        asked.filter(|&length| length != p.settings.chosen_scramble_length()).map(|length| length.to_string())
     }),
     ("precision", Some("--precision"), |p, _| Some(p.settings.precision.name().to_owned())),
     ("accelerator", Some("--accel"), |p, _| {
@@ -104,7 +105,10 @@ impl Provenance<'_> {
 /// The arguments that make a picture again, by what its file says; `None` if that is not enough.
 pub fn arguments(metadata: &Metadata, picture: &Path) -> Option<Vec<String>> {
     let own = |name: &str| metadata.get(&format!("{PREFIX}{name}"));
-    let mut words = vec![own("scene")?];
+    // A name that could be a command or an option.
+    let scene = own("scene")?;
+    let mut words =
+        vec![if scene.contains('.') && !scene.starts_with('-') { scene } else { format!("./{scene}") }];
     words.extend(own("size")?.split(' ').map(str::to_owned));
     words.extend([metadata.get("samplesPerPixel")?, own("bounces")?]);
     words.push(picture.to_string_lossy().into_owned());

@@ -1,7 +1,7 @@
 //! Where the picture of a render goes: one file, or two if it is denoised.
 
 use crate::error::{Error, Result};
-use crate::output::{self, Aov, Provenance};
+use crate::output::{self, Aov, Provenance, same_file};
 use crate::picture::{Denoiser, Depth, Destination, Format, Metadata, Value};
 use crate::render::{Rendered, in_pool};
 use std::path::{Path, PathBuf};
@@ -59,10 +59,10 @@ impl Target {
         [&self.picture].into_iter().chain(noisy).map(|place| place.partial_path().to_path_buf()).collect()
     }
 
-    /// Whether one of the pictures goes to the same file.
-    pub fn holds(&self, other: &Destination) -> bool {
-        let noisy = self.denoised.as_ref().map(|(noisy, _)| noisy.path());
-        self.picture.path() == other.path() || noisy == Some(other.path())
+    /// Whether one of the pictures goes to this file.
+    pub fn holds(&self, path: &Path) -> bool {
+        let noisy = self.denoised.as_ref().map(|(noisy, _)| noisy);
+        [&self.picture].into_iter().chain(noisy).any(|place| same_file(place.path(), path))
     }
 
     /// Writes what was rendered. Errors: files that can't be written, a denoiser that fails.

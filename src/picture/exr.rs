@@ -163,7 +163,7 @@ fn header(width: usize, height: usize, planes: &[Plane<'_>], metadata: &Metadata
     attribute(&mut header, "lineOrder", "lineOrder", &[0]);
     attribute(&mut header, "pixelAspectRatio", "float", &one);
     attribute(&mut header, "screenWindowCenter", "v2f", &[0; 8]);
-    attribute(&mut header, "screenWindowWidth", "float", &one);
+    attribute(&mut header, "screenWindowWidth", "float", &screen_window_width(metadata).to_le_bytes());
     for (name, value) in metadata.iter() {
         let name = if name == "DateTime" { "capDate" } else { name };
         match value {
@@ -189,6 +189,15 @@ fn attribute(header: &mut Vec<u8>, name: &str, kind: &str, value: &[u8]) {
     }
     header.extend((value.len() as i32).to_le_bytes());
     header.extend(value);
+}
+
+/// The width of the picture at the distance 1 of the camera.
+fn screen_window_width(metadata: &Metadata) -> f32 {
+    let degrees = metadata.iter().find_map(|(name, value)| match value {
+        Value::Number(degrees) if name == "fov" => Some(*degrees),
+        _ => None,
+    });
+    degrees.map_or(1.0, |degrees| 2.0 * libm::tan(degrees.to_radians() / 2.0)) as f32
 }
 
 /// Name, type, whether values are perceptually linear, and sampling rates, of every channel.

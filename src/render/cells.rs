@@ -3,7 +3,7 @@
 use super::{Settings, memory};
 use crate::error::Result;
 use crate::film::file::Reader;
-use crate::film::{Greys, HALVES, Sums};
+use crate::film::{Greys, HALVES, Halving, Pair, Sums};
 use crate::math::Rgb;
 use crate::sampling::{SCRAMBLES, Scrambles};
 use rayon::prelude::*;
@@ -17,12 +17,14 @@ pub(super) struct Cells {
     pub(super) layout: Layout,
     first: u64,
     scrambles: Scrambles,
+    halving: Halving,
 }
 
 /// What a cell holds.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Layout {
-    /// The sum of the radiance of samples that all lie in this scramble, and their deviation.
+    /// The sum of the radiance of samples that all lie in this scramble; of the first chunk also the means of the components,
+    /// summed over the samples that are compared (see [`Halving`]), and before over their first half.
     Plain(usize),
     /// Also, by scramble, the sums of the means of the components.
     Scrambled,
@@ -46,13 +48,13 @@ impl Layout {
 
     /// Numbers in a cell.
     pub(super) fn stride(self) -> usize {
-        self.deviation().map_or(self.greys().end, |deviation| deviation + 1)
+        self.compared().map_or(self.greys().end, |compared| compared.end)
     }
 
-    /// Where in a cell the deviation is.
+    /// Where in a cell the sums are that are compared.
     #[inline]
-    pub(super) fn deviation(self) -> Option<usize> {
-        matches!(self, Layout::Plain(_)).then_some(RADIANCE)
+    pub(super) fn compared(self) -> Option<Range<usize>> {
+        matches!(self, Layout::Plain(_)).then_some(RADIANCE..RADIANCE + 2)
     }
 
     /// Where in a cell the sums by scramble are.
@@ -80,6 +82,14 @@ impl Layout {
         }
     }
 
+    /// Keeps the sum of the samples that are compared from now on.
+    #[inline]
+    pub(super) fn compare(self, cell: &mut [f64], sum: f64) {
+        if let Some([before, all]) = self.compared().map(|compared| &mut cell[compared]) {
+            *before = std::mem::replace(all, sum);
+        }
+    }
+
     /// The half of the sums that a scramble belongs to.
     #[inline]
     pub(super) fn half(self, scramble: usize) -> usize {
@@ -98,13 +108,15 @@ impl Cells {
     /// Empty cells for the chunk that begins with a sample.
     pub(super) fn new(settings: &Settings, first: u64) -> Result<Cells> {
         let (layout, scrambles) = (Layout::new(settings, first), settings.scrambles());
-        Ok(Cells { samples: 0, values: memory::zeros(settings, layout.stride())?, layout, first, scrambles })
+        let values = memory::zeros(settings, layout.stride())?;
+        let halving = Halving::new(settings.chunk.into());
+        Ok(Cells { samples: 0, values, layout, first, scrambles, halving })
     }
 
     /// Reads the `samples` samples of the chunk that begins with a sample.
     pub(super) fn read(settings: &Settings, first: u64, samples: u64, reader: &mut Reader) -> Result<Cells> {
-        if !(samples.is_power_of_two() && samples < u64::from(settings.chunk)) {
-            return Err(reader.refuse("holds a pass that can't be"));
+        if !(1..u64::from(settings.chunk)).contains(&samples) {
+            return Err(reader.refuse("holds more of a chunk than there can be"));
         }
         let mut cells = Cells::new(settings, first)?;
         let stride = cells.layout.stride();
@@ -144,9 +156,13 @@ impl Cells {
         a + b
     }
 
-    /// The deviation of a pixel, where it is known.
+    /// How far the halves of a pixel's samples differ, of the first chunk, where it is known.
     pub(super) fn deviation(&self, pixel: usize) -> Option<f64> {
-        self.layout.deviation().map(|at| self.cell(pixel)[at])
+        let sums = &self.cell(pixel)[self.layout.compared()?];
+        let compared = self.halving.largest(self.samples);
+        let before = self.halving.largest(compared.saturating_sub(1));
+        let pair = Pair { sums: [sums[0], sums[1] - sums[0]], counts: [before, compared - before] };
+        Some(pair.deviation())
     }
 
     /// What the film keeps.
@@ -155,8 +171,9 @@ impl Cells {
         let cells = || self.values.par_chunks_exact(layout.stride());
         let half = |half: usize| cells().map(|cell| layout.radiance(cell)[half]).collect();
         if let Layout::Plain(scramble) = layout {
-            let deviation = |cell: &[f64]| cell[RADIANCE] as f32;
-            let deviations = if first == 0 { cells().map(deviation).collect() } else { Vec::new() };
+            let pixels = if first == 0 { 0..self.values.len() / layout.stride() } else { 0..0 };
+            let deviations =
+                pixels.into_par_iter().map(|pixel| self.deviation(pixel).unwrap_or(0.0) as f32).collect();
             return Sums::of_scramble(scramble, samples, half(0), deviations);
         }
         let odd = if layout == Layout::Halved { half(1) } else { Vec::new() };

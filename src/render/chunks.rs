@@ -119,7 +119,7 @@ where
             }
             let (cells, ended) = self.chunk(index * chunk..most.min((index + 1) * chunk))?;
             let is_full = cells.samples == chunk;
-            if !is_full && self.is_regular(index * chunk, cells.samples) {
+            if !is_full {
                 self.save(Some(&cells), true);
             }
             if cells.samples > 0 {
@@ -136,13 +136,6 @@ where
         }
         let missed = self.blocks.as_ref().is_some_and(|blocks| !blocks.is_done());
         Ok(if missed { Ended::OutOfSamples } else { Ended::Complete })
-    }
-
-    /// Whether a chunk that began with `first` has so many samples after one of its passes, however many are wanted in all:
-    /// only from there a render with more samples can go on as if it had wanted them from the beginning.
-    fn is_regular(&self, first: u64, samples: u64) -> bool {
-        let in_passes = self.blocks.is_none() || first == 0;
-        samples == 0 || samples == u64::from(self.settings.chunk) || in_passes && samples.is_power_of_two()
     }
 
     /// Hands out what it takes to go on from here.
@@ -169,7 +162,7 @@ where
     }
 
     /// The sums of a chunk, and why they hold fewer samples than wanted. Passes double what there is: 1, 1, 2, 4 ...
-    /// samples, or fewer where the time is short, added in the same order as in one go. Where blocks stop, few pixels may
+    /// samples, or fewer where the time is short or a pass takes long, added in the same order as in one go. Where blocks stop, few pixels may
     /// be left, so all after the first chunk is one pass.
     fn chunk(&mut self, samples: Range<u64>) -> Result<(Cells, Option<Ended>)> {
         let mut cells = match self.cells.take() {
@@ -189,10 +182,7 @@ where
             if fitting == 0 {
                 return Ok((cells, Some(Ended::OutOfTime)));
             }
-            let is_regular = |samples: u64| self.is_regular(next - cells.samples, samples);
-            if is_regular(cells.samples) && !is_regular(cells.samples + fitting) {
-                self.save(Some(&cells), true);
-            }
+            let fitting = self.pace.bearable(fitting, self.open_pixels());
             if !self.pass(next..next + fitting, &mut cells) {
                 let ended = if self.watch.cancelled() { Ended::Cancelled } else { Ended::OutOfTime };
                 return Ok((complete, Some(ended)));
@@ -200,9 +190,7 @@ where
             self.look_ahead(&cells);
             if cells.samples < samples.end - samples.start {
                 complete.copy_from(&cells);
-                if self.is_regular(samples.start, cells.samples) {
-                    self.save(Some(&cells), false);
-                }
+                self.save(Some(&cells), false);
                 if self.blocks.is_none() {
                     self.watch.pass(&SoFar::new(&self.film, Some(&cells)));
                 }

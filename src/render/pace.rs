@@ -14,6 +14,8 @@ pub(super) struct Pace {
 
 /// By how much a pass may take longer than the slower of what is known about passes.
 const MARGIN: f64 = 1.05;
+/// Seconds that a pass of more than one sample may take.
+const LONGEST_PASS: f64 = 2.0;
 
 impl Pace {
     pub(super) fn new(time: Option<Duration>) -> Pace {
@@ -62,6 +64,13 @@ impl Pace {
             }
             _ => wanted,
         }
+    }
+
+    /// How many of `wanted` > 0 samples of so many pixels a pass may take: a render that is interrupted loses it.
+    pub(super) fn bearable(&self, wanted: u64, pixels: u64) -> u64 {
+        let Some(seconds) = self.seconds_per_sample() else { return wanted };
+        // As above, it truncates.
+        wanted.min((LONGEST_PASS / (seconds * pixels.max(1) as f64)) as u64).max(1)
     }
 
     /// Learns what a pass of so many samples, of all pixels, took.

@@ -138,11 +138,15 @@ impl Settings {
 
     /// How the samples of a pixel are spread over its scrambles.
     pub fn scrambles(&self) -> Scrambles {
-        let chosen = match self.sampler {
+        Scrambles::new(self.scramble_length.unwrap_or(self.chosen_scramble_length()).into())
+    }
+
+    /// The length of the scrambles where none is asked for.
+    pub(crate) fn chosen_scramble_length(&self) -> u32 {
+        match self.sampler {
             SamplerKind::Sobol if self.noise.is_none() => SCRAMBLE_LENGTH,
             _ => SHORT_SCRAMBLE_LENGTH,
-        };
-        Scrambles::new(self.scramble_length.unwrap_or(chosen).into())
+        }
     }
 
     /// Where sampling ends at the latest.

@@ -3,7 +3,7 @@
 use super::adaptive::Adaptive;
 use super::cells::{Cells, Layout};
 use super::{FIREFLY, FIREFLY_BEFORE};
-use crate::film::{Frame, Halving, Pair, Run, grey};
+use crate::film::{Frame, Halving, Run, grey};
 use crate::integrator::Counters;
 use crate::math::Rgb;
 use crate::sampling::{Place, Scrambles};
@@ -84,7 +84,7 @@ impl Tile<'_> {
         F: Fn(u32, u32, u64, &mut Counters) -> Rgb,
     {
         let mut work = Work::default();
-        let layout = self.layout;
+        let (layout, compared) = (self.layout, pass.compared());
         for Row { x, y, cells } in &mut self.rows {
             let y = *y;
             for (cell, x) in cells.chunks_exact_mut(layout.stride()).zip(*x..) {
@@ -95,21 +95,19 @@ impl Tile<'_> {
                     return None;
                 }
                 let mut sums = layout.radiance(cell);
-                let firefly = pass.firefly(sums[0] + sums[1]);
-                let before = grey(sums[0]);
                 for index in pass.samples.clone() {
                     let place = pass.scrambles.place(index);
+                    let firefly = pass.firefly(sums[0] + sums[1], index);
                     let radiance = pass.take(x, y, place, sample, firefly, &mut work.counters);
                     sums[layout.half(place.scramble)] += radiance;
                     if let Some(sum) = cell[layout.greys()].get_mut(place.scramble) {
                         *sum += grey(radiance);
                     }
+                    if index + 1 == compared {
+                        layout.compare(cell, grey(sums[0]));
+                    }
                 }
                 layout.set_radiance(cell, sums);
-                if let Some(at) = layout.deviation().filter(|_| pass.is_compared()) {
-                    let counts = [pass.before, pass.samples.end - pass.samples.start];
-                    cell[at] = Pair { sums: [before, grey(sums[0]) - before], counts }.deviation();
-                }
                 work.samples += pass.samples.end - pass.samples.start;
             }
         }
@@ -143,16 +141,20 @@ impl Pass<'_> {
         self.judge(radiance, firefly, counters)
     }
 
-    /// Whether it is the second half of samples whose halves are compared.
-    fn is_compared(&self) -> bool {
-        self.samples.start == self.before && self.halving.compares(self.samples.end)
+    /// The number of a pixel's samples, reached in this pass, that are compared; 0 for none, and in chunks but the first. Passes
+    /// at most double what there is, so there is at most one.
+    fn compared(&self) -> u64 {
+        let largest = self.halving.largest(self.samples.end);
+        if self.samples.start == self.before && largest > self.samples.start { largest } else { 0 }
     }
 
-    /// Above which component a sample of a pixel is a firefly, given the sum of the pixel's samples in the chunk.
-    fn firefly(&self, sum: Rgb) -> f64 {
+    /// Above which component a sample of a pixel is a firefly, given the sum of the pixel's samples before it in the chunk.
+    #[inline]
+    fn firefly(&self, sum: Rgb, index: u64) -> f64 {
+        let before = self.before + (index - self.samples.start);
         let largest = sum.max_element();
-        let is_known = self.before >= FIREFLY_BEFORE && largest > 0.0;
-        if is_known { FIREFLY * (largest / self.before as f64) } else { f64::INFINITY }
+        let is_known = before >= FIREFLY_BEFORE && largest > 0.0;
+        if is_known { FIREFLY * (largest / before as f64) } else { f64::INFINITY }
     }
 
     /// Counts what is odd about a sample; returns what is added to its pixel.

@@ -134,8 +134,10 @@ impl Mtl {
     /// - else diffuse.
     pub(crate) fn kind(&self) -> MaterialKind {
         let white = |color: Rgb| color.min(Rgb::ONE);
-        let diffuse = self.diffuse.unwrap_or(Rgb::splat(DEFAULT_DIFFUSE));
         let specular = self.specular.unwrap_or(Rgb::ZERO);
+        // Alone it is a mirror's.
+        let missing = if specular == Rgb::ZERO { Rgb::splat(DEFAULT_DIFFUSE) } else { Rgb::ZERO };
+        let diffuse = self.diffuse.unwrap_or(missing);
         let emission = self.emission.unwrap_or(Rgb::ZERO);
         let model = self.illumination.unwrap_or(2.0);
         let is_mirror = [3.0, 5.0].contains(&model);

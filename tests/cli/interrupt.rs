@@ -54,3 +54,17 @@ fn a_request_to_terminate_writes_the_picture_so_far() {
     assert_eq!(last["event"], "interrupted");
     assert!(folder.has("a.png"));
 }
+
+#[test]
+fn the_first_signal_ends_a_program_that_still_reads_its_scene() {
+    let folder = Folder::new();
+    let pipe = folder.path("endless.yaml");
+    assert!(Command::new("mkfifo").arg(&pipe).status().expect("mkfifo").success());
+    let mut child =
+        folder.command("endless.yaml 8 6 1 3 a.png").stderr(Stdio::null()).spawn().expect("a child");
+    // Waits until the program reads; then it waits for a text that does not come.
+    let _writer = std::fs::File::options().write(true).open(&pipe).expect("a pipe");
+    send(&child, "TERM");
+    assert_eq!(child.wait().expect("an end").code(), Some(143));
+    assert_eq!(folder.names(), ["ball.yaml", "endless.yaml"]);
+}

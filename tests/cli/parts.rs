@@ -73,10 +73,34 @@ fn a_part_of_another_render_is_not_replaced() {
     let ended = folder.run(&format!("{RENDER} 0.film --part 1/2"));
     ended.fails(1, "is another part: it differs in region");
     assert!(folder.read("0.film") == before);
-    // What is damaged is of no use.
-    folder.write("0.film", "damaged");
-    folder.run(&format!("{RENDER} 0.film --part 0/2")).succeeds();
-    assert!(folder.read("0.film") == before);
+}
+
+#[test]
+fn a_damaged_part_is_replaced_and_no_other_file() {
+    let folder = Folder::new();
+    let render = format!("{RENDER} 0.film --part 0/2");
+    folder.run(&render).succeeds();
+    let whole = folder.read("0.film");
+    let mut damaged = whole.clone();
+    damaged[whole.len() / 2] ^= 1;
+    for damaged in [&[], &whole[..20], &whole[..whole.len() - 1], &damaged[..]] {
+        fs::write(folder.path("0.film"), damaged).expect("a file");
+        folder.run(&render).succeeds();
+        assert!(folder.read("0.film") == whole);
+    }
+    folder.write("0.film", "v 0 0 0");
+    folder.run(&render).fails(1, "remove it, or choose another name");
+    assert_eq!(folder.read("0.film"), b"v 0 0 0");
+}
+
+#[test]
+fn what_a_render_reads_or_writes_elsewhere_is_not_overwritten() {
+    let folder = Folder::new();
+    folder
+        .run(&format!("{RENDER} a.png --checkpoint ./a.png"))
+        .fails(2, "--checkpoint needs a file of its own");
+    folder.run(&format!("{RENDER} a.png")).succeeds();
+    folder.run("diff a.png a.png -o ./a.png").fails(2, "choose another name for -o");
 }
 
 #[test]

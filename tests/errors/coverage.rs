@@ -124,6 +124,18 @@ fn bars_of_64_seeds_hold_the_truth_in_93_to_97_of_100_without_caustics() {
 }
 
 #[test]
+#[ignore = "long: 200 seeds of every scene"]
+fn intervals_of_pictures_hold_the_truth_in_93_to_97_of_100() {
+    let [(_, few), ..] = ways();
+    for name in super::scenes::NAMES {
+        let coverage = means(&Subject::new(name), &few, 200).all();
+        // Beside the chance, 93 to 97 % is what the intervals promise.
+        let range = 93.0 - allowed(200)..97.0 + allowed(200);
+        assert!(range.contains(&coverage.percent()), "{name}: {} %", coverage.percent());
+    }
+}
+
+#[test]
 #[ignore = "a table: minutes"]
 fn table_of_pixels() {
     println!("scene, sampler: all; sure; doubtful (share)");

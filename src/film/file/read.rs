@@ -66,6 +66,16 @@ impl Reader {
         serde_json::from_slice(&header).ok()
     }
 
+    /// Whether there is a film file whose content is not what was written, or nothing at all.
+    pub fn is_damaged(path: &Path) -> bool {
+        let Ok(file) = File::open(path) else { return false };
+        let Ok(bytes) = file.metadata().map(|found| found.len()) else { return false };
+        let mut file = BufReader::with_capacity(BUFFER, file);
+        let mut magic = [0; MAGIC.len()];
+        let is_film = file.read_exact(&mut magic).is_ok() && magic == MAGIC;
+        bytes == 0 || is_film && (bytes < PREFIX + CHECKSUM || !check_sum(&mut file, bytes).unwrap_or(true))
+    }
+
     /// Reads `count` f64.
     pub fn doubles(&mut self, count: u64) -> Result<Vec<f64>> {
         self.all(count, f64::from_le_bytes)
