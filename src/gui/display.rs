@@ -32,6 +32,11 @@ impl View {
     pub const ALL: [View; 6] =
         [View::Picture, View::Albedo, View::Normals, View::Depth, View::Error, View::Samples];
 
+    /// Whether the brightness of a colour stands for a value.
+    pub const fn shows_values(self) -> bool {
+        matches!(self, View::Picture | View::Albedo)
+    }
+
     /// The name in the window.
     pub const fn name(self) -> &'static str {
         match self {

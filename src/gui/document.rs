@@ -2,6 +2,7 @@
 
 pub use crate::output::{same_file, whole_path};
 
+use super::coming;
 use crate::error::{Diagnostic, Error, Severity};
 use crate::output::TextFile;
 use crate::scene::edit::Editable;
@@ -9,7 +10,7 @@ use crate::scene::{self, Scene};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::sync::mpsc::{Receiver, channel};
 use std::thread;
 use std::time::{Duration, Instant, SystemTime};
 
@@ -199,20 +200,12 @@ impl Document {
 
     /// Looks whether a read has ended.
     pub fn poll(&mut self) -> Option<Event> {
-        let received = self.reading.as_ref()?.try_recv();
-        match received {
-            Err(TryRecvError::Empty) => None,
-            Err(TryRecvError::Disconnected) => {
-                self.reading = None;
-                self.diagnostics = vec![plain("the scene could not be read".into())];
-                Some(Event::Failed)
-            }
-            Ok((files, outcome)) => {
-                self.reading = None;
-                self.files = Arc::new(files);
-                Some(self.take(outcome))
-            }
-        }
+        let Some((files, outcome)) = coming::take(&mut self.reading)? else {
+            self.diagnostics = vec![plain("the scene could not be read".into())];
+            return Some(Event::Failed);
+        };
+        self.files = Arc::new(files);
+        Some(self.take(outcome))
     }
 
     /// Takes what a read ended with.
@@ -244,12 +237,8 @@ impl Document {
     /// Whether a file has changed since it was read. Looks only now and then, and on a thread of its own, since a folder may be
     /// far away; `wake` is called when that thread has found a change.
     pub fn has_changed(&mut self, wake: impl FnOnce() + Send + 'static) -> bool {
-        if let Some(looking) = &self.looking {
-            let found = match looking.try_recv() {
-                Err(TryRecvError::Empty) => return false,
-                found => found.ok(),
-            };
-            self.looking = None;
+        if self.looking.is_some() {
+            let Some(found) = coming::take(&mut self.looking) else { return false };
             self.looked = Some(Instant::now());
             // What was read again in the meantime is not what was looked at.
             let is_present = |files: &Arc<Files>| Arc::ptr_eq(files, &self.files) && self.reading.is_none();

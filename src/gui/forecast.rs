@@ -1,9 +1,9 @@
 //! What a render costs and where it leads, in words.
 
-use super::session::Status;
+use super::session::{BlockErrors, Status};
 use super::settings::Knobs;
 use crate::cli::console::{digits, duration, with_prefix};
-use crate::render::Settings;
+use crate::render::{NOISE_AFTER, Settings};
 use std::time::Duration;
 
 /// The share that is done.
@@ -27,12 +27,18 @@ pub fn costs(status: &Status) -> Vec<String> {
     texts
 }
 
-/// When the render ends and how noisy it will be; of a preview, how long the final render would take to the noise target, and
-/// what error it would have within its time. Errors fall with the root of the samples, at least.
-pub fn forecasts(status: &Status, settings: &Settings, knobs: &Knobs) -> Vec<String> {
+/// The powers of the number of samples with which errors fall: at best, and of plain Monte Carlo.
+const SLOPES: [f64; 2] = [0.75, 0.5];
+
+/// When the render ends and how noisy it will be; of a preview, between which times the final render would reach the noise
+/// target in every block, and what error it would have within its time.
+pub fn forecasts(
+    status: &Status,
+    settings: &Settings,
+    blocks: Option<&BlockErrors>,
+    knobs: &Knobs,
+) -> Vec<String> {
     let outlook = &status.outlook;
-    let time = |seconds: f64| duration(Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX));
-    let percent = |error: f64| digits(100.0 * error, 2);
     let mut texts = Vec::new();
     if status.is_busy()
         && let Some(left) = outlook.seconds_left
@@ -45,20 +51,47 @@ pub fn forecasts(status: &Status, settings: &Settings, knobs: &Knobs) -> Vec<Str
         }
         return texts;
     }
-    let pixels = |width: u32, height: u32| f64::from(width) * f64::from(height);
-    let larger = pixels(knobs.width, knobs.height) / pixels(settings.width, settings.height);
-    let Some(error) = outlook.error.filter(|_| status.seconds > 0.0) else { return texts };
-    let spent = status.seconds * larger;
-    if let Some(target) = knobs.noise {
-        let factor = (error / target) * (error / target);
-        texts.push(format!("final: {} % after about {}", percent(target), time(spent * factor)));
+    if status.samples == 0 || status.seconds <= 0.0 {
+        return texts;
     }
-    if let Some(budget) = knobs.time {
+    let pixels = |width: u32, height: u32| f64::from(width) * f64::from(height);
+    let all = pixels(knobs.width, knobs.height);
+    let per_sample = status.seconds / status.samples as f64;
+    if let (Some(target), Some(blocks)) = (knobs.noise, blocks) {
+        let [least, most] =
+            samples_to(blocks, target, knobs.samples).map(|each| time(each * all * per_sample));
+        texts.push(format!("final: {} % in every block after {least} to {most}", percent(target)));
+    }
+    if let (Some(budget), Some(error)) = (knobs.time, outlook.error) {
+        let spent = status.seconds * all / pixels(settings.width, settings.height);
         texts.push(format!("final: {} % after {}", percent(error * (spent / budget).sqrt()), time(budget)));
     }
-    if knobs.noise.is_none() && knobs.time.is_none() && knobs.samples > 0 && status.samples > 0 {
-        let all = knobs.samples as f64 * pixels(knobs.width, knobs.height);
-        texts.push(format!("final: about {}", time(status.seconds * all / status.samples as f64)));
+    if knobs.noise.is_none() && knobs.time.is_none() && knobs.samples > 0 {
+        texts.push(format!("final: about {}", time(per_sample * knobs.samples as f64 * all)));
     }
     texts
+}
+
+/// Between which numbers of samples a pixel, on average, all blocks will have reached a target, if each takes at most `most`
+/// (0: no limit). Blocks that are far from it take long, and all take some.
+pub fn samples_to(blocks: &BlockErrors, target: f64, most: u64) -> [f64; 2] {
+    let most = if most == 0 { f64::INFINITY } else { most as f64 };
+    let of = |slope: f64, square: f64| {
+        let factor = libm::pow(square / (target * target), 0.5 / slope);
+        (factor * blocks.samples as f64).max(NOISE_AFTER as f64).min(most)
+    };
+    let pixels: f64 = blocks.squares.iter().map(|(_, pixels)| pixels).sum();
+    let mean = |slope| {
+        blocks.squares.iter().map(|(square, pixels)| pixels * of(slope, *square)).sum::<f64>() / pixels
+    };
+    let [a, b] = SLOPES.map(mean);
+    [a.min(b), a.max(b)]
+}
+
+fn time(seconds: f64) -> String {
+    duration(Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX))
+}
+
+fn percent(error: f64) -> String {
+    digits(100.0 * error, 2)
 }

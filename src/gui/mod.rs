@@ -10,6 +10,7 @@
 
 mod app;
 pub mod camera_control;
+mod coming;
 pub mod display;
 pub mod document;
 pub mod examples;

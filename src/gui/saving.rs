@@ -2,8 +2,9 @@
 
 use super::document::{self, Files, Loaded};
 use super::session::Frame;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::output::{Provenance, Target, Wanted};
+use crate::picture;
 use crate::render;
 use crate::scene::edit::Editable;
 use crate::scene::{self, edit};
@@ -15,13 +16,13 @@ use std::thread;
 /// Writes on a thread of its own; `wake` is called when it is done.
 pub fn start(
     frame: Arc<Frame>,
-    path: PathBuf,
-    exposure: f64,
+    wanted: Wanted,
     wake: impl FnOnce() + Send + 'static,
 ) -> Receiver<std::result::Result<PathBuf, String>> {
     let (sender, receiver) = channel();
     thread::spawn(move || {
-        let written = write(&frame, &path, exposure).map(|()| path).map_err(|error| error.to_string());
+        let path = wanted.image.clone();
+        let written = write(&frame, wanted).map(|()| path).map_err(|error| error.to_string());
         // A window that is gone has waited, or does not want to know.
         let _ = sender.send(written);
         wake();
@@ -29,12 +30,14 @@ pub fn start(
     receiver
 }
 
-/// Writes what the command line would write for as many samples of the scene as it is by now, saved.
+/// Writes what the command line would write for as many samples of the scene as it is by now, saved. There is nothing but
+/// light: channels beside it and a denoiser are for final renders.
 ///
 /// # Errors
 /// As [`Target::new`] and [`Target::write_light`], and those of [`edit::save`].
-pub fn write(frame: &Frame, path: &Path, exposure: f64) -> Result<()> {
-    let target = Target::new(Wanted { image: path.to_path_buf(), exposure, ..Wanted::default() })?;
+pub fn write(frame: &Frame, wanted: Wanted) -> Result<()> {
+    let exposure = wanted.exposure;
+    let target = Target::new(wanted)?;
     let loaded = &frame.loaded;
     let digest = if *frame.editable == loaded.editable {
         loaded.scene.digest
@@ -69,12 +72,38 @@ pub fn start_scene(
 ) -> Receiver<SavedScene> {
     let (sender, receiver) = channel();
     thread::spawn(move || {
-        let saved = document::check_unchanged(&loaded, &path)
-            .and_then(|()| edit::save(&loaded.text, &loaded.scene.desc, &editable))
-            .and_then(|text| document::save(text, &path))
-            .map(|(loaded, files)| (loaded, files, editable));
+        let saved = save_scene(&loaded, &editable, &path).map(|(loaded, files)| (loaded, files, editable));
         // As above.
         let _ = sender.send(saved);
+        wake();
+    });
+    receiver
+}
+
+/// Writes a scene with its changes; in another folder it names the same files by other names.
+fn save_scene(loaded: &Loaded, editable: &Editable, path: &Path) -> Result<(Loaded, Files)> {
+    document::check_unchanged(loaded, path)?;
+    let text = edit::save(&loaded.text, &loaded.scene.desc, editable)?;
+    let text = edit::moved(&text, &loaded.path, path)?;
+    document::save(text, path).map_err(|error| match error {
+        Error::Io { .. } if document::same_file(&loaded.path, path) => {
+            Error::Usage(format!("{error}; \"Save scene as…\" in the menu File puts it elsewhere"))
+        }
+        error => error,
+    })
+}
+
+/// Reads a picture to compare others with, on a thread of its own; `wake` is called when it is done.
+pub fn start_reading(
+    like: Arc<Frame>,
+    path: PathBuf,
+    wake: impl FnOnce() + Send + 'static,
+) -> Receiver<std::result::Result<(PathBuf, Frame), String>> {
+    let (sender, receiver) = channel();
+    thread::spawn(move || {
+        let read = picture::read(&path).map_err(|error| error.to_string());
+        // As above.
+        let _ = sender.send(read.map(|picture| (path, Frame::of_picture(&picture, &like))));
         wake();
     });
     receiver

@@ -211,11 +211,19 @@ pub struct Kept {
     pub theme: Theme,
     /// The window's size in points.
     pub size: [f32; 2],
+    /// Whether the panels on the left and on the right are folded away.
+    pub folded: [bool; 2],
 }
 
 impl Default for Kept {
     fn default() -> Kept {
-        Kept { knobs: Knobs::default(), recent: Vec::new(), theme: Theme::default(), size: [1280.0, 800.0] }
+        Kept {
+            knobs: Knobs::default(),
+            recent: Vec::new(),
+            theme: Theme::default(),
+            size: [1280.0, 800.0],
+            folded: [false; 2],
+        }
     }
 }
 
@@ -262,6 +270,7 @@ impl Kept {
             "preview": knobs.preview.name(),
             "theme": self.theme.name(),
             "window": self.size,
+            "folded": self.folded,
             "recent": self.recent.iter().filter_map(|path| path.to_str()).collect::<Vec<_>>(),
         })
     }
@@ -298,6 +307,7 @@ impl Kept {
         if let (Some(width), Some(height)) = (side(0), side(1)) {
             kept.size = [width as f32, height as f32];
         }
+        kept.folded = [0, 1].map(|side| value["folded"][side] == true);
         let recent = value["recent"].as_array().into_iter().flatten();
         kept.recent = recent.filter_map(|path| path.as_str().map(PathBuf::from)).take(MOST_RECENT).collect();
         kept

@@ -1,20 +1,23 @@
 //! The state of the window and what its commands do, apart from how it is drawn.
 
+mod files;
+
 use super::camera_control;
+use super::coming;
 use super::display::{Display, View};
 use super::document::{self, Document, Event, Loaded};
 use super::examples::{Example, Examples};
 use super::form::Form;
 use super::history::History;
 use super::pick::{self, Pick, Tool};
-use super::saving::{self, SavedScene};
+use super::saving::SavedScene;
 use super::session::{Frame, Order, Purpose, Session, Stage, Status};
 use super::settings::{Kept, own_folder};
 use crate::render::{AccelKind, Settings};
 use crate::scene::edit::Editable;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, TryRecvError};
+use std::sync::mpsc::Receiver;
 use std::time::{Duration, Instant};
 
 /// How long the place of the picture must keep its size before the preview follows.
@@ -57,6 +60,8 @@ pub struct Studio {
     pub stored_display: Display,
     /// The picture that others are compared with.
     pub stored: Option<Arc<Frame>>,
+    /// The file that the stored picture was read from, if it was.
+    pub stored_file: Option<PathBuf>,
     /// Where the stored picture ends and the other begins, as a share of the width; `None` if it is not shown.
     pub wipe: Option<f32>,
     /// The fields.
@@ -80,6 +85,7 @@ pub struct Studio {
     picking: Option<Receiver<Pick>>,
     saving: Option<Receiver<Result<PathBuf, String>>>,
     saving_scene: Option<Receiver<SavedScene>>,
+    reading_stored: Option<Receiver<Result<(PathBuf, Frame), String>>>,
     /// A scene that was not opened, since there were changes.
     refused: Option<PathBuf>,
 }
@@ -100,6 +106,7 @@ impl Studio {
             display: Display::new(notify(&wake)),
             stored_display: Display::new(notify(&wake)),
             stored: None,
+            stored_file: None,
             wipe: None,
             form: Form::default(),
             selected: None,
@@ -116,6 +123,7 @@ impl Studio {
             picking: None,
             saving: None,
             saving_scene: None,
+            reading_stored: None,
             refused: None,
             wake,
         }
@@ -169,8 +177,7 @@ impl Studio {
             self.open(&path);
         }
         self.take_pick();
-        self.take_saved();
-        self.look_for_saved_scene();
+        self.take_files();
         self.tell_end();
         self.refresh();
     }
@@ -359,13 +366,7 @@ impl Studio {
     }
 
     fn take_pick(&mut self) {
-        let Some(picking) = &self.picking else { return };
-        let pick = match picking.try_recv() {
-            Err(TryRecvError::Empty) => return,
-            Err(TryRecvError::Disconnected) => None,
-            Ok(pick) => Some(pick),
-        };
-        self.picking = None;
+        let Some(pick) = coming::take(&mut self.picking) else { return };
         match pick {
             Some(Pick { tool: Tool::Select, found }) => self.selected = found.map(|(object, _)| object),
             Some(Pick { tool, found: Some((_, point)) }) => {
@@ -380,113 +381,15 @@ impl Studio {
         self.tool = Tool::Select;
     }
 
-    /// Begins to write the scene with its changes, to its file or another one.
-    pub fn save_scene(&mut self, path: Option<&Path>) {
-        self.finish_saving();
-        let (Some(loaded), Some(editable)) = (self.document.loaded.clone(), self.editable.clone()) else {
-            return;
-        };
-        let path = path.unwrap_or(&loaded.path).to_path_buf();
-        self.saving_scene = Some(saving::start_scene(loaded, editable, path, self.waker()));
-    }
-
-    /// Waits until the scene is saved, if that was begun.
-    pub fn finish_saving(&mut self) {
-        if let Some(saving) = self.saving_scene.take() {
-            self.take_saved_scene(saving.recv().ok());
-        }
-    }
-
-    fn look_for_saved_scene(&mut self) {
-        let Some(saving) = &self.saving_scene else { return };
-        let saved = match saving.try_recv() {
-            Err(TryRecvError::Empty) => return,
-            Err(TryRecvError::Disconnected) => None,
-            Ok(saved) => Some(saved),
-        };
-        self.saving_scene = None;
-        self.take_saved_scene(saved);
-    }
-
-    /// Goes on with the scene that was saved. The picture is the same, so it stays.
-    fn take_saved_scene(&mut self, saved: Option<SavedScene>) {
-        let (loaded, files, editable) = match saved {
-            Some(Ok(saved)) => saved,
-            Some(Err(error)) => return self.say_error(error.to_string()),
-            None => return self.say_error("the scene could not be saved".into()),
-        };
-        self.kept.remember(&loaded.path);
-        self.say(format!("{} is saved", loaded.path.display()));
-        let saved = Arc::new(loaded.editable.clone());
-        self.document.take_saved(loaded, files);
-        // What was changed in the meantime is still to be saved.
-        if self.editable.as_ref().is_some_and(|now| **now == *editable) {
-            self.editable = Some(saved);
-        }
-    }
-
-    /// Writes the picture that is shown to a file.
-    pub fn save_picture(&mut self, path: &Path) {
-        let Some(frame) = self.session.frame() else {
-            return self.say_error("there is no picture to save yet".into());
-        };
-        let wake = self.waker();
-        self.saving = Some(saving::start(frame, path.to_path_buf(), self.kept.knobs.exposure, wake));
-    }
-
-    fn take_saved(&mut self) {
-        let Some(saving) = &self.saving else { return };
-        let saved = match saving.try_recv() {
-            Err(TryRecvError::Empty) => return,
-            saved => saved.ok(),
-        };
-        self.saving = None;
-        self.take_saved_picture(saved);
-    }
-
-    fn take_saved_picture(&mut self, saved: Option<Result<PathBuf, String>>) {
-        match saved {
-            Some(Ok(path)) => self.say(format!("{} is written", path.display())),
-            Some(Err(error)) => self.say_error(error),
-            None => self.say_error("the picture could not be written".into()),
-        }
-    }
-
-    /// Ends what is under way, with its results written. Whether they are; else the notice says why not.
-    pub fn close(&mut self) -> bool {
-        self.notice = None;
-        if self.is_rendering_final() {
-            self.session.stop();
-            self.session.wait();
-            self.tell_end();
-        }
-        let of_render = self.take_error();
-        self.finish_saving();
-        let of_scene = self.take_error();
-        if let Some(saving) = self.saving.take() {
-            self.take_saved_picture(saving.recv().ok());
-        }
-        let of_picture = self.take_error();
-        let errors: Vec<String> = [of_render, of_scene, of_picture].into_iter().flatten().collect();
-        if !errors.is_empty() {
-            self.say_error(errors.join("\n"));
-        }
-        errors.is_empty()
-    }
-
-    fn take_error(&mut self) -> Option<String> {
-        self.notice.take_if(|notice| notice.is_error).map(|notice| notice.text)
-    }
-
-    /// Stores the picture to compare others with.
-    pub fn store(&mut self) {
-        self.stored = self.session.frame();
-        self.wipe = self.stored.as_ref().map(|_| 0.5);
-    }
-
     /// Says something.
     pub fn say(&mut self, text: String) {
         self.notice = Some(Notice { text, is_error: false });
+    }
+
+    /// Forgets what went wrong, and what the scene's user should know; they may come back with the next file.
+    pub fn put_messages_away(&mut self) {
+        self.notice = None;
+        self.document.diagnostics.clear();
     }
 
     /// Says that something went wrong.

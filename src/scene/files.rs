@@ -17,6 +17,15 @@ pub(crate) const MESH: Kind = Kind { file: "an OBJ file", content: "a mesh" };
 /// A picture.
 pub(crate) const PICTURE: Kind = Kind { file: "a picture", content: "a picture" };
 
+/// Where the file called `name` is looked for, in this order.
+pub(crate) fn places(folder: &Path, name: &str) -> Vec<PathBuf> {
+    let mut places = vec![folder.join(name)];
+    if !places.contains(&PathBuf::from(name)) {
+        places.push(PathBuf::from(name));
+    }
+    places
+}
+
 /// The file called `name`: in the scene's folder, else in the working directory.
 pub(crate) fn find(
     folder: &Path,
@@ -25,10 +34,7 @@ pub(crate) fn find(
     value: Value<'_>,
     report: &mut Report,
 ) -> Option<PathBuf> {
-    let mut places = vec![folder.join(name)];
-    if !places.contains(&PathBuf::from(name)) {
-        places.push(PathBuf::from(name));
-    }
+    let places = places(folder, name);
     if let Some(found) = places.iter().find(|path| path.is_file()) {
         return Some(found.clone());
     }

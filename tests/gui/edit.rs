@@ -2,7 +2,7 @@ use super::{BALLS, Desk, SCENES, load, sample};
 use pathtracer::gui::document;
 use pathtracer::math::{DVec3, Rgb};
 use pathtracer::scene::desc::ApertureDesc;
-use pathtracer::scene::edit::{Editable, Surface, SurfaceKind, save};
+use pathtracer::scene::edit::{self, Editable, Surface, SurfaceKind, moved, save};
 use pathtracer::scene::{self, Scene};
 use proptest::prelude::*;
 use std::path::Path;
@@ -273,5 +273,54 @@ fn a_scene_that_is_saved_without_a_change_is_the_same_text() {
     for name in SCENES {
         let text = std::fs::read_to_string(sample(name)).expect("a sample scene");
         assert_eq!(saved(&text, |_| {}), text, "{name}");
+    }
+}
+
+#[test]
+fn a_scene_in_another_folder_names_the_same_files_and_keeps_every_other_line() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = |name: &str| folder.path().join(name);
+    for name in ["from/parts", "to/deep"] {
+        std::fs::create_dir_all(path(name)).expect("a folder");
+    }
+    std::fs::write(path("from/parts/a b.obj"), "v 0 -1 0\nv 0 1 0\nv 0 0 2\nf 1 2 3\n").expect("a mesh");
+    for name in ["sky.exr", "wood.png"] {
+        let picture = Path::new(env!("CARGO_MANIFEST_DIR")).join("objects").join(name);
+        std::fs::copy(picture, path("from").join(name)).expect("a picture");
+    }
+    let text = format!(
+        "{BALLS}  - Object:\n      Type: TriangleMesh   # a wall\n      Filepath: &wall parts/a b.obj  # of one\n      \
+         Position: [0, 0, 0]\n      Material: {{Type: Diffuse}}\n  - Object: {{Type: TriangleMesh, Filepath: *wall, \
+         Position: [1, 1, 1], Material: {{Type: Diffuse}}}}\n  - Object:\n      Type: Ball\n      Position: [9, 0, 0]\n      \
+         Radius: 1\n      Material: {{Type: Diffuse, Color: {{Image: 'wood.png'}}}}\nEnvironment:\n  Image: \"sky.exr\" # all\n"
+    );
+    let read = |text: &str, file: &Path| scene::parse(text, file).expect("a scene without errors");
+    let (from, to) = (path("from/scene.yaml"), path("to/deep/scene.yaml"));
+    let before = read(&text, &from);
+    let moved = moved(&text, &from, &to).expect("a scene that can be moved");
+    let expected = text
+        .replace("parts/a b.obj", "\"../../from/parts/a b.obj\"")
+        .replace("'wood.png'", "\"../../from/wood.png\"")
+        .replace("\"sky.exr\"", "\"../../from/sky.exr\"");
+    assert_eq!(moved, expected);
+    let files = |scene: &Scene| {
+        scene.files.iter().map(|file| file.canonicalize().expect("a file")).collect::<Vec<_>>()
+    };
+    assert_eq!(files(&read(&moved, &to)), files(&before));
+    // Back again, and beside: nothing else has changed.
+    assert_eq!(edit::moved(&text, &from, &path("from/other.yaml")).expect("a text"), text);
+}
+
+#[test]
+fn sample_scenes_can_be_saved_in_another_folder_and_show_the_same() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for name in SCENES.into_iter().chain(["objectScene", "gallery"]) {
+        let loaded = load(&sample(name));
+        let path = folder.path().join(format!("{name}.yaml"));
+        let text = moved(&loaded.text, &loaded.path, &path).expect("a scene that can be moved");
+        let read = document::read_text(text.clone(), &path).unwrap_or_else(|error| panic!("{name}: {error}"));
+        assert_eq!(read.scene.files.len(), loaded.scene.files.len(), "{name}");
+        assert_eq!(read.editable, loaded.editable, "{name}");
+        assert_eq!(text.lines().count(), loaded.text.lines().count(), "{name}");
     }
 }

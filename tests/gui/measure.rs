@@ -2,26 +2,37 @@
 
 use super::panels::window_of;
 use super::studio::until;
-use super::{SCENES, load, preview, sample, session};
+use super::{load, preview, sample, session};
 use pathtracer::gui::camera_control;
+use pathtracer::gui::session::Session;
 use pathtracer::gui::settings::{Kept, Knobs};
 use pathtracer::gui::studio::Studio;
+use pathtracer::math::Rgb;
 use pathtracer::render::Settings;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-fn median(mut times: Vec<Duration>) -> Duration {
+/// The scenes that are measured.
+const ALL: [&str; 7] =
+    ["bigBalls", "cornellBox", "glassBalls", "mirrorRoom", "legacyBalls", "objectScene", "gallery"];
+
+fn print(what: &str, scene: &str, mut times: Vec<Duration>) {
     times.sort();
-    times[times.len() / 2]
+    println!("{scene}: {what} {:.1?} (most {:.1?})", times[times.len() / 2], times[times.len() - 1]);
+}
+
+/// Of a preview in a window of 1280 x 800.
+fn settings() -> Settings {
+    Settings { samples: 1 << 20, error_estimate: true, ..Settings::new(736, 414, 1, 20) }
 }
 
 #[test]
 #[ignore = "a measurement"]
 fn from_a_change_to_the_first_picture_and_from_a_stop_to_the_end() {
-    for name in SCENES.into_iter().chain(["objectScene", "gallery"]) {
+    for name in ALL {
         let loaded = load(&sample(name));
         let session = session();
-        let settings = Settings { samples: 1 << 20, error_estimate: true, ..Settings::new(736, 414, 1, 20) };
+        let settings = settings();
         let mut editable = loaded.editable.clone();
         session.order(preview(&loaded, &editable, &settings));
         session.wait_for(2);
@@ -30,9 +41,7 @@ fn from_a_change_to_the_first_picture_and_from_a_stop_to_the_end() {
             camera_control::orbit(&mut editable.camera, [0.01, 0.0]);
             let start = Instant::now();
             let job = session.order(preview(&loaded, &editable, &settings));
-            while session.frame().is_none_or(|frame| frame.job != job) {
-                std::thread::yield_now();
-            }
+            wait_for_frame(&session, job);
             first.push(start.elapsed());
             session.wait_for(1);
             let start = Instant::now();
@@ -40,13 +49,39 @@ fn from_a_change_to_the_first_picture_and_from_a_stop_to_the_end() {
             session.wait();
             ends.push(start.elapsed());
         }
-        let most = |times: &[Duration]| times.iter().max().copied().unwrap_or_default();
-        let (first_most, ends_most) = (most(&first), most(&ends));
-        println!(
-            "{name}: first picture {:.1?} (most {first_most:.1?}), end {:.1?} (most {ends_most:.1?})",
-            median(first),
-            median(ends)
-        );
+        print("first picture after a move", name, first);
+        print("end after a stop", name, ends);
+    }
+}
+
+/// Waits for the first frame of an order.
+fn wait_for_frame(session: &Session, job: u64) {
+    while session.frame().is_none_or(|frame| frame.job != job) {
+        std::thread::yield_now();
+    }
+}
+
+#[test]
+#[ignore = "a measurement"]
+fn from_opening_a_scene_and_from_a_change_of_a_material_to_the_first_picture() {
+    for name in ALL {
+        let (mut opened, mut changed) = (Vec::new(), Vec::new());
+        for _ in 0..10 {
+            let session = session();
+            let settings = settings();
+            let start = Instant::now();
+            let loaded = load(&sample(name));
+            wait_for_frame(&session, session.order(preview(&loaded, &loaded.editable, &settings)));
+            opened.push(start.elapsed());
+            let mut editable = loaded.editable.clone();
+            let surface = editable.surfaces.iter_mut().flatten().next().expect("a material of its own");
+            surface.color = Rgb::splat(0.25);
+            let start = Instant::now();
+            wait_for_frame(&session, session.order(preview(&loaded, &editable, &settings)));
+            changed.push(start.elapsed());
+        }
+        print("first picture after opening", name, opened);
+        print("first picture after a change of a material", name, changed);
     }
 }
 
@@ -65,10 +100,14 @@ fn a_frame_of_the_window_while_all_cores_render() {
             .map(|_| {
                 let start = Instant::now();
                 window.step();
-                start.elapsed()
+                // What the real window does before the graphics driver has its turn.
+                let output = window.output();
+                let meshes = window.ctx.tessellate(output.shapes.clone(), output.pixels_per_point);
+                let time = start.elapsed();
+                assert!(!meshes.is_empty());
+                time
             })
             .collect();
-        let most = times.iter().max().copied().unwrap_or_default();
-        println!("{name}: a frame {:.2?} (most {most:.2?})", median(times));
+        print("a frame with its triangles", name, times);
     }
 }

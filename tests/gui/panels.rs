@@ -19,7 +19,12 @@ pub(super) fn window<'w>(desk: &Desk) -> Window<'w> {
 
 /// One whose points have so many pixels.
 pub(super) fn window_of<'w>(studio: Studio, scale: f32) -> Window<'w> {
-    let builder = Harness::builder().with_size([1280.0, 800.0]).with_pixels_per_point(scale);
+    sized_window_of(studio, [1280.0, 800.0], scale)
+}
+
+/// One of so many points.
+pub(super) fn sized_window_of<'w>(studio: Studio, size: [f32; 2], scale: f32) -> Window<'w> {
+    let builder = Harness::builder().with_size(size).with_pixels_per_point(scale);
     let mut window = builder.build_ui_state(
         |ui, (studio, desk): &mut (Studio, panels::Desk)| desk.show(ui, studio),
         (studio, panels::Desk::default()),
@@ -38,13 +43,13 @@ pub(super) fn wait_for_label(window: &mut Window<'_>, label: &str) {
     }
 }
 
-fn press(window: &mut Window<'_>, key: Key) {
+pub(super) fn press(window: &mut Window<'_>, key: Key) {
     window.key_press(key);
     window.run_steps(2);
 }
 
 /// Puts a text in the place of what is in a field.
-fn fill(window: &mut Window<'_>, label: &str, text: &str) {
+pub(super) fn fill(window: &mut Window<'_>, label: &str, text: &str) {
     window.get_by_role_and_label(Role::TextInput, label).click();
     window.run_steps(2);
     window.key_press_modifiers(Modifiers::COMMAND, Key::A);

@@ -1,61 +1,91 @@
-use super::{BALLS, Desk, load, preview, sample, session, small};
+use super::{BALLS, Desk, SCENES, load, preview, sample, session, small};
 use crate::support::random::Random;
 use pathtracer::gui::camera_control;
+use pathtracer::gui::document::Loaded;
 use pathtracer::gui::saving;
 use pathtracer::gui::session::{Frame, Order, Purpose, Stage};
 use pathtracer::math::Rgb;
 use pathtracer::output::Wanted;
-use pathtracer::render::{Ended, SCRAMBLE_LENGTH, Settings};
+use pathtracer::render::{AccelKind, Ended, SCRAMBLE_LENGTH, Settings};
 use pathtracer::sampling::SamplerKind;
-use pathtracer::scene::edit::{self, Editable};
+use pathtracer::scene::edit::{self, Editable, SurfaceKind};
+use std::ffi::OsStr;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// Moves the camera, a colour or the light of the scene `BALLS`.
+/// Moves the camera, or changes a colour or the light, where there is one of its own.
 fn change(editable: &mut Editable, random: &mut Random) {
-    match (random.unit() * 4.0) as u32 {
-        0 => camera_control::orbit(
+    let surfaces = editable.surfaces.len();
+    let index = (random.unit() * surfaces as f64) as usize;
+    match ((random.unit() * 4.0) as u32, editable.surfaces.get_mut(index).and_then(Option::as_mut)) {
+        (2, Some(surface)) if !surface.has_color_picture => {
+            surface.color = Rgb::new(random.unit(), random.unit(), random.unit());
+        }
+        (3, Some(surface)) if surface.kind == SurfaceKind::Diffuse => {
+            surface.emission_strength = if random.unit() < 0.2 { 0.0 } else { random.between(1.0, 30.0) };
+        }
+        (1, _) => camera_control::dolly(&mut editable.camera, random.between(0.9, 1.1)),
+        _ => camera_control::orbit(
             &mut editable.camera,
             [random.between(-0.2, 0.2), random.between(-0.1, 0.1)],
         ),
-        1 => camera_control::dolly(&mut editable.camera, random.between(0.9, 1.1)),
-        2 => {
-            let surface = editable.surfaces[1].as_mut().expect("a material of its own");
-            surface.color = Rgb::new(random.unit(), random.unit(), random.unit());
-        }
-        _ => {
-            let surface = editable.surfaces[2].as_mut().expect("a material of its own");
-            surface.emission_strength = if random.unit() < 0.2 { 0.0 } else { random.between(1.0, 30.0) };
-        }
     }
 }
+
+/// One of some.
+fn any<T: Copy>(all: &[T], random: &mut Random) -> T {
+    all[(random.unit() * all.len() as f64) as usize]
+}
+
+/// A picture without anything beside its light.
+fn wanted(desk: &Desk, name: &str) -> Wanted {
+    Wanted { image: desk.path(name), ..Wanted::default() }
+}
+
+/// Accelerators of this build.
+fn accels() -> Vec<AccelKind> {
+    let is_built = |accel: &AccelKind| *accel != AccelKind::Embree || cfg!(feature = "embree");
+    AccelKind::ALL.into_iter().filter(is_built).collect()
+}
+
+/// The sizes of the pictures: usual ones, and those whose sides are no multiples of tiles and blocks.
+const SIZES: [[u32; 2]; 4] = [[48, 27], [33, 50], [97, 7], [17, 17]];
 
 #[test]
 fn two_hundred_previews_with_changes_in_between_have_the_bytes_of_the_command_line() {
     let desk = Desk::new();
-    let loaded = load(&desk.path("balls.yaml"));
+    let scenes: Vec<Arc<Loaded>> = SCENES.iter().map(|name| load(&sample(name))).collect();
+    let scenes: Vec<Arc<Loaded>> = scenes.into_iter().chain([load(&desk.path("balls.yaml"))]).collect();
     let (session, mut random) = (session(), Random::new(1));
-    let mut editable = loaded.editable.clone();
-    let settings = Settings { samples: 1 << 20, ..small() };
+    let (mut loaded, mut editable) = (&scenes[0], scenes[0].editable.clone());
+    let (accels, mut settings) = (accels(), Settings { samples: 1 << 20, ..small() });
     for round in 0..200 {
         // Some orders are left before they have a picture.
         for _ in 0..(random.unit() * 3.0) as u32 {
             change(&mut editable, &mut random);
-            session.order(preview(&loaded, &editable, &settings));
+            session.order(preview(loaded, &editable, &settings));
         }
+        if random.unit() < 0.3 {
+            loaded = &scenes[(random.unit() * scenes.len() as f64) as usize];
+            editable = loaded.editable.clone();
+        }
+        [settings.width, settings.height] = any(&SIZES, &mut random);
+        settings.accel = any(&accels, &mut random);
         change(&mut editable, &mut random);
-        let job = session.order(preview(&loaded, &editable, &settings));
+        let job = session.order(preview(loaded, &editable, &settings));
         session.wait_for(1 + (random.unit() * 20.0) as u64);
         session.stop();
-        let status = session.wait();
-        assert_eq!(status.stage, Stage::Done(Ended::Cancelled), "round {round}");
+        let what = format!("round {round}: {}, {settings:?}", loaded.path.display());
+        assert_eq!(session.wait().stage, Stage::Done(Ended::Cancelled), "{what}");
         let frame = session.frame().expect("a picture");
-        assert_eq!((frame.job, frame.is_coarse), (job, false), "round {round}");
-        saving::write(&frame, &desk.path("window.png"), 0.0).expect("a picture that can be written");
-        let text = edit::save(BALLS, &loaded.scene.desc, &editable).expect("a scene that can be saved");
-        desk.write("balls.yaml", &text);
-        let expected = desk.by_command_line("balls.yaml", &frame.settings, frame.samples, "line.png");
-        assert!(desk.read("window.png") == expected, "round {round}, {} samples", frame.samples);
+        assert_eq!((frame.job, frame.is_coarse), (job, false), "{what}");
+        saving::write(&frame, wanted(&desk, "window.png")).expect("a picture that can be written");
+        let text =
+            edit::save(&loaded.text, &loaded.scene.desc, &editable).expect("a scene that can be saved");
+        let name = loaded.path.file_name().and_then(OsStr::to_str).expect("a name");
+        desk.write(name, &text);
+        let expected = desk.by_command_line(name, &frame.settings, frame.samples, "line.png");
+        assert!(desk.read("window.png") == expected, "{what}, {} samples", frame.samples);
     }
 }
 
@@ -88,7 +118,7 @@ fn a_final_render_writes_the_file_of_the_command_line_also_of_a_scene_that_is_no
     let (session, mut random) = (session(), Random::new(3));
     let mut editable = loaded.editable.clone();
     for image in ["final.png", "final.exr"] {
-        let wanted = Wanted { image: desk.path(image), ..Wanted::default() };
+        let wanted = wanted(&desk, image);
         let order = preview(&loaded, &editable, &small());
         session.order(Order { purpose: Purpose::Final(wanted), ..order });
         let status = session.wait();
@@ -108,7 +138,7 @@ fn a_stopped_final_render_writes_its_picture_so_far() {
     let loaded = load(&desk.path("balls.yaml"));
     let session = session();
     let settings = Settings { samples: 1 << 20, ..small() };
-    let wanted = Wanted { image: desk.path("so_far.png"), ..Wanted::default() };
+    let wanted = wanted(&desk, "so_far.png");
     let order = preview(&loaded, &loaded.editable, &settings);
     session.order(Order { purpose: Purpose::Final(wanted), ..order });
     session.wait_for(4);
@@ -132,7 +162,7 @@ fn a_pause_holds_a_render_and_changes_nothing() {
     let (status, frame) = (session.wait_for_pause(), session.frame().expect("a picture"));
     assert_eq!(status.stage, Stage::Paused);
     assert!(session.is_paused() && status.is_busy());
-    saving::write(&frame, &desk.path("window.png"), 0.0).expect("a picture that can be written");
+    saving::write(&frame, wanted(&desk, "window.png")).expect("a picture that can be written");
     // This takes longer than many passes.
     let expected = desk.by_command_line("balls.yaml", &settings, frame.samples, "line.png");
     assert!(desk.read("window.png") == expected, "{} samples", frame.samples);
@@ -143,7 +173,7 @@ fn a_pause_holds_a_render_and_changes_nothing() {
     session.stop();
     assert_eq!(session.wait().stage, Stage::Done(Ended::Cancelled));
     let frame = session.frame().expect("a picture");
-    saving::write(&frame, &desk.path("window.png"), 0.0).expect("a picture that can be written");
+    saving::write(&frame, wanted(&desk, "window.png")).expect("a picture that can be written");
     let expected = desk.by_command_line("balls.yaml", &settings, frame.samples, "line.png");
     assert!(desk.read("window.png") == expected, "{} samples", frame.samples);
 }

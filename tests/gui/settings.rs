@@ -32,7 +32,7 @@ fn what_is_kept_between_runs_comes_back() {
         ..Knobs::default()
     };
     let recent = vec!["/a/b.yaml".into(), "/c.yaml".into()];
-    let kept = Kept { knobs, recent, theme: Theme::Light, size: [900.0, 700.0] };
+    let kept = Kept { knobs, recent, theme: Theme::Light, size: [900.0, 700.0], folded: [true, false] };
     assert_eq!(Kept::of(&kept.value()), kept);
 }
 

@@ -1,9 +1,10 @@
-use super::{BALLS, Desk};
+use super::{BALLS, Desk, sample};
 use pathtracer::gui::form::Field;
 use pathtracer::gui::pick::Tool;
 use pathtracer::gui::session::Stage;
 use pathtracer::gui::settings::{Kept, Knobs};
 use pathtracer::gui::studio::Studio;
+use pathtracer::math::Rgb;
 use pathtracer::output::Aov;
 use pathtracer::picture::Depth;
 use pathtracer::render::{AccelKind, Ended, FeatureKind};
@@ -360,10 +361,61 @@ fn a_saved_preview_is_the_picture_of_the_command_line() {
         let is_new = studio.session.frame().is_some_and(|frame| frame.editable.camera.fov == 0.5);
         is_new && studio.session.status().stage == Stage::Done(Ended::Complete)
     });
-    studio.save_picture(&desk.path("window.exr"));
+    studio.save_picture(&desk.path("window.exr"), None);
     until(&mut studio, "a file", |studio| studio.notice.is_some());
     studio.save_scene(None);
     studio.finish_saving();
     desk.command(&"balls.yaml 48 27 16 8 line.exr --accel native".split(' ').collect::<Vec<_>>());
     assert!(desk.read("window.exr") == desk.read("line.exr"));
+}
+
+#[test]
+fn a_preview_is_saved_in_the_depth_that_is_asked_for() {
+    let desk = Desk::new();
+    let mut studio = opened(&desk);
+    studio.save_picture(&desk.path("window.png"), Some(Depth::Sixteen));
+    until(&mut studio, "a file", |studio| studio.notice.is_some());
+    desk.command(&"balls.yaml 48 27 16 8 line.png --accel native --depth 16".split(' ').collect::<Vec<_>>());
+    assert!(desk.read("window.png") == desk.read("line.png"));
+}
+
+#[test]
+fn a_picture_of_a_file_is_compared_with_if_it_has_the_size() {
+    let desk = Desk::new();
+    let mut studio = opened(&desk);
+    for (size, name) in [("48 27", "same.exr"), ("16 9", "small.exr")] {
+        let arguments = format!("balls.yaml {size} 16 8 {name} --accel native");
+        desk.command(&arguments.split(' ').collect::<Vec<_>>());
+    }
+    studio.store_file(&desk.path("same.exr"));
+    until(&mut studio, "the picture", |studio| studio.stored_file == Some(desk.path("same.exr")));
+    let (stored, shown) =
+        (studio.stored.clone().expect("a picture"), studio.session.frame().expect("a picture"));
+    // The file holds floats.
+    let is_same = |(a, b): (&Rgb, &Rgb)| a.to_array() == b.to_array().map(|value| f64::from(value as f32));
+    assert!(stored.light.iter().zip(&shown.light).all(is_same));
+    assert_eq!((stored.size(), studio.wipe), (shown.size(), Some(0.5)));
+    studio.store_file(&desk.path("small.exr"));
+    until(&mut studio, "a message", |studio| studio.notice.is_some());
+    let notice = studio.notice.clone().expect("a message");
+    assert!(
+        notice.is_error && notice.text.contains("16 x 9 pixels") && notice.text.contains("48 x 27"),
+        "{notice:?}"
+    );
+    assert_eq!(studio.stored_file, Some(desk.path("same.exr")));
+}
+
+#[test]
+fn a_scene_that_names_files_is_saved_in_another_folder() {
+    let desk = Desk::new();
+    let mut studio = studio();
+    studio.open(&sample("gallery"));
+    until(&mut studio, "the scene", |studio| studio.document.loaded.is_some());
+    studio.edit(|editable| editable.camera.fov = 0.25);
+    studio.save_scene(Some(&desk.path("gallery.yaml")));
+    studio.finish_saving();
+    let notice = studio.notice.clone().expect("a message");
+    assert!(!notice.is_error && notice.text.ends_with("gallery.yaml is saved"), "{notice:?}");
+    assert!(!studio.is_edited());
+    desk.command(&["check", "gallery.yaml"]);
 }

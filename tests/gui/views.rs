@@ -1,12 +1,12 @@
-use super::{Desk, load, preview, session, small};
+use super::{Desk, SCENES, load, preview, sample, session, small};
 use crate::support::random::Random;
 use eframe::egui::{Rect, Vec2, pos2};
 use pathtracer::gui::camera_control as control;
 use pathtracer::gui::display::{Request, View, ramp, show};
-use pathtracer::gui::forecast::forecasts;
+use pathtracer::gui::forecast::{forecasts, samples_to};
 use pathtracer::gui::panels::{Zoom, pixel_at};
 use pathtracer::gui::pick;
-use pathtracer::gui::session::{Frame, Status};
+use pathtracer::gui::session::{BlockErrors, Frame, Status};
 use pathtracer::gui::settings::Knobs;
 use pathtracer::gui::tone;
 use pathtracer::math::DVec3;
@@ -204,10 +204,55 @@ fn a_preview_tells_what_the_final_render_will_take() {
     };
     // Ten times the sides: 100 times the pixels.
     let knobs = Knobs { width: 480, height: 270, samples: 16, ..Knobs::default() };
-    let told = |knobs: &Knobs| forecasts(&status, &small(), knobs);
+    // One block of 4 % and one of 10 %, of as many pixels.
+    let blocks = BlockErrors { samples: 4, squares: vec![(0.0016, 648.0), (0.01, 648.0)] };
+    let told = |knobs: &Knobs| forecasts(&status, &small(), Some(&blocks), knobs);
     assert_eq!(told(&knobs), ["final: about 13 min 20 s"]);
     let target = Knobs { noise: Some(0.05), ..knobs.clone() };
-    assert_eq!(told(&target), ["final: 5 % after about 13 min 20 s"]);
+    // No block takes more than the 16 samples.
+    assert_eq!(told(&target), ["final: 5 % in every block after 13 min 20 s to 13 min 20 s"]);
     let budget = Knobs { time: Some(50.0), ..knobs };
     assert_eq!(told(&budget), ["final: 20 % after 50 s"]);
+}
+
+#[test]
+fn a_target_takes_more_samples_in_some_blocks_and_no_block_fewer_than_the_first_look() {
+    let blocks = BlockErrors { samples: 256, squares: vec![(0.0001, 100.0), (0.04, 300.0)] };
+    let [least, most] = samples_to(&blocks, 0.1, 0);
+    // The second block needs four times its samples where errors fall with the root, and the first has 64 at least.
+    assert!((most - (64.0 + 3.0 * 1024.0) / 4.0).abs() < 1e-9, "{most}");
+    assert!((least - (64.0 + 3.0 * 256.0 * 4.0f64.powf(2.0 / 3.0)) / 4.0).abs() < 1e-9, "{least}");
+    assert_eq!(samples_to(&blocks, 0.1, 512)[1], (64.0 + 3.0 * 512.0) / 4.0);
+}
+
+#[test]
+fn a_noise_target_takes_as_many_samples_as_the_preview_foretells() {
+    for name in SCENES {
+        let loaded = load(&sample(name));
+        let session = session();
+        for seen in [16, 128] {
+            let settings = Settings { samples: seen, ..Settings::new(96, 54, seen, 8) };
+            session.order(preview(
+                &loaded,
+                &loaded.editable,
+                &Settings { error_estimate: true, ..settings.clone() },
+            ));
+            session.wait();
+            let blocks = session.frame().and_then(|frame| frame.blocks.clone()).expect("errors of blocks");
+            for target in [0.1, 0.2] {
+                let settings = Settings { noise: Some(target), samples: 1 << 14, ..settings.clone() };
+                session.order(preview(&loaded, &loaded.editable, &settings));
+                session.wait();
+                let frame = session.frame().expect("a picture");
+                let pixels = frame.light.len();
+                let real = (0..pixels).map(|pixel| frame.count(pixel)).sum::<u64>() as f64 / pixels as f64;
+                let [least, most] = samples_to(&blocks, target, 1 << 14);
+                println!(
+                    "{name} {seen} {target}: {real} of {least} to {most}: {} {}",
+                    real / least,
+                    real / most
+                );
+            }
+        }
+    }
 }

@@ -1,6 +1,7 @@
 //! The menus and buttons at the top.
 
-use super::Desk;
+use super::commands::SIDE_KEYS;
+use super::{Desk, Side};
 use crate::gui::display::View;
 use crate::gui::examples::Example;
 use crate::gui::pick::Tool;
@@ -19,11 +20,28 @@ pub(super) fn show(ui: &mut Ui, studio: &mut Studio, desk: &mut Desk) {
         }
         ui.separator();
         render_buttons(ui, studio);
-        ui.separator();
-        tools(ui, studio);
-        ui.separator();
-        views(ui, studio);
+        if !desk.sides.is_narrow() {
+            ui.separator();
+            choices(ui, studio, desk);
+        }
     });
+    if desk.sides.is_narrow() {
+        ui.horizontal(|ui| choices(ui, studio, desk));
+    }
+}
+
+/// What is in a row of its own where the window is narrow.
+fn choices(ui: &mut Ui, studio: &mut Studio, desk: &mut Desk) {
+    tools(ui, studio);
+    ui.separator();
+    views(ui, studio);
+    ui.separator();
+    for (side, key) in Side::ALL.into_iter().zip(SIDE_KEYS) {
+        let label = ui.selectable_label(desk.sides.is_shown(side, &studio.kept), side.name());
+        if label.on_hover_text(format!("Fold the panel away, or unfold it ({})", key.name())).clicked() {
+            desk.sides.toggle(side, &mut studio.kept);
+        }
+    }
 }
 
 fn file_menu(ui: &mut Ui, studio: &mut Studio, desk: &mut Desk) {

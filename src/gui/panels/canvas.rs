@@ -207,7 +207,7 @@ impl Canvas {
 fn hint(ui: &Ui, place: Rect, studio: &Studio) {
     let text = match (&studio.document.path, studio.document.is_reading()) {
         (_, true) => "reading the scene…",
-        (Some(_), _) if !studio.document.diagnostics.is_empty() => "",
+        (Some(_), _) if studio.document.loaded.is_none() => "",
         (Some(_), _) => "rendering…",
         (None, _) => "Open a scene: File, Ctrl+O, or drop a file here",
     };

@@ -1,13 +1,13 @@
 //! Keys, and files that are dropped on the window.
 
-use super::Desk;
+use super::{Desk, Side};
 use crate::gui::display::View;
 use crate::gui::pick::Tool;
 use crate::gui::studio::Studio;
 use eframe::egui::{Context, Key, Modifiers, Ui};
 
 /// The shortcuts: keys, and what they do.
-pub(super) const HELP: [(&str, &str); 27] = [
+pub(super) const HELP: [(&str, &str); 28] = [
     ("Drag", "orbit about the point that the camera looks at"),
     ("Shift + drag, middle drag", "move the camera sideways"),
     ("Wheel, right drag", "move the camera nearer or away"),
@@ -29,6 +29,7 @@ pub(super) const HELP: [(&str, &str); 27] = [
     ("0", "whole picture"),
     ("A", "store the picture as A"),
     ("W", "wipe between A and the picture"),
+    ("L, O", "fold the fields away, the objects; or unfold them"),
     ("Ctrl + O", "open a scene"),
     ("Ctrl + S", "save the scene"),
     ("Ctrl + E", "save the picture"),
@@ -36,6 +37,9 @@ pub(super) const HELP: [(&str, &str); 27] = [
     ("F1", "this list"),
     ("Ctrl + Q", "close the window"),
 ];
+
+/// Fold the panels away, in the order of [`Side::ALL`].
+pub(super) const SIDE_KEYS: [Key; 2] = [Key::L, Key::O];
 
 /// Opens what is dropped.
 pub(super) fn drop_files(ui: &Ui, studio: &mut Studio) {
@@ -113,6 +117,11 @@ fn view_keys(ctx: &Context, studio: &mut Studio, desk: &mut Desk) {
     }
     if key(Key::W) && studio.stored.is_some() {
         studio.wipe = if studio.wipe.is_some() { None } else { Some(0.5) };
+    }
+    for (side, number) in Side::ALL.into_iter().zip(SIDE_KEYS) {
+        if key(number) {
+            desk.sides.toggle(side, &mut studio.kept);
+        }
     }
     let views = [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5, Key::Num6];
     for (view, number) in View::ALL.into_iter().zip(views) {

@@ -1,10 +1,13 @@
 //! Windows in the window: files, help, closing with changes.
 
 use super::commands::HELP;
+use crate::gui::coming;
 use crate::gui::examples::is_scene;
 use crate::gui::studio::Studio;
+use crate::picture::{Depth, Format};
 use eframe::egui::{
-    Align2, Button, Context, Grid, Id, Key, Modal, ScrollArea, TextEdit, Ui, ViewportCommand, Window,
+    Align2, Button, ComboBox, Context, Grid, Id, Key, Modal, ScrollArea, TextEdit, Ui, ViewportCommand,
+    Window,
 };
 use std::env;
 use std::fs;
@@ -18,6 +21,7 @@ enum Purpose {
     Open,
     SaveScene,
     SavePicture,
+    StorePicture,
 }
 
 impl Purpose {
@@ -26,11 +30,12 @@ impl Purpose {
             Purpose::Open => "Open scene",
             Purpose::SaveScene => "Save scene as",
             Purpose::SavePicture => "Save picture",
+            Purpose::StorePicture => "Picture to compare with",
         }
     }
 
     const fn verb(self) -> &'static str {
-        if matches!(self, Purpose::Open) { "Open" } else { "Save" }
+        if matches!(self, Purpose::Open | Purpose::StorePicture) { "Open" } else { "Save" }
     }
 }
 
@@ -52,8 +57,8 @@ impl Listing {
         let mut all: Vec<PathBuf> = entries.filter(|path| !is_hidden(path)).collect();
         all.sort();
         let is_wanted = |path: &PathBuf| match purpose {
-            Purpose::SavePicture => crate::picture::Format::of(path).is_ok(),
-            _ => is_scene(path),
+            Purpose::SavePicture | Purpose::StorePicture => Format::of(path).is_ok(),
+            Purpose::Open | Purpose::SaveScene => is_scene(path),
         };
         let folders = all.iter().filter(|path| path.is_dir()).cloned().collect();
         let files = all.into_iter().filter(|path| path.is_file() && is_wanted(path)).collect();
@@ -65,6 +70,8 @@ impl Listing {
 struct Choice {
     purpose: Purpose,
     name: String,
+    /// Of a picture that is saved; `None` as its format has it.
+    depth: Option<Depth>,
     listing: Listing,
     /// The listing on its way: a folder may be far away.
     coming: Option<Receiver<Listing>>,
@@ -75,7 +82,7 @@ impl Choice {
     /// In the first of some folders that is there.
     fn new(purpose: Purpose, folders: Vec<PathBuf>, name: String, ctx: &Context) -> Choice {
         let listing = Listing::default();
-        let mut choice = Choice { purpose, name, listing, coming: None, is_new: true };
+        let mut choice = Choice { purpose, name, depth: None, listing, coming: None, is_new: true };
         choice.enter(folders, ctx);
         choice
     }
@@ -103,9 +110,8 @@ impl Choice {
 
     /// Draws it; the file that was chosen.
     fn show(&mut self, ui: &mut Ui) -> Option<PathBuf> {
-        if let Some(Ok(listing)) = self.coming.as_ref().map(Receiver::try_recv) {
-            self.listing = listing;
-            self.coming = None;
+        if let Some(listing) = coming::take(&mut self.coming) {
+            self.listing = listing.unwrap_or_default();
         }
         let (mut chosen, mut entered) = (None, None);
         ui.horizontal(|ui| {
@@ -155,10 +161,37 @@ impl Choice {
                 }
             }
         });
+        if self.purpose == Purpose::SavePicture {
+            self.depths(ui);
+        }
         if let Some(folder) = entered {
             self.enter(vec![folder], ui.ctx());
         }
         chosen
+    }
+}
+
+impl Choice {
+    /// The depths of the format that the name tells.
+    fn depths(&mut self, ui: &mut Ui) {
+        let format = Format::of(Path::new(&self.name)).ok();
+        let depths = format.map_or(&[][..], Format::depths);
+        self.depth = self.depth.filter(|depth| depths.contains(depth));
+        ui.horizontal(|ui| {
+            let label = ui.label("Depth");
+            let default = depths.first().copied();
+            let shown = self.depth.or(default).map_or("as the file", Depth::name);
+            let list = ComboBox::from_id_salt("depth of the file").selected_text(shown).show_ui(ui, |ui| {
+                for &depth in depths {
+                    let wanted = Some(depth).filter(|_| Some(depth) != default);
+                    ui.selectable_value(&mut self.depth, wanted, depth.name());
+                }
+            });
+            list.response.labelled_by(label.id);
+            if format == Some(Format::Exr) {
+                ui.weak("channels beside the light: by Render");
+            }
+        });
     }
 }
 
@@ -202,6 +235,12 @@ impl Dialogs {
         self.choice = Some(Choice::beside(Purpose::SavePicture, path, ctx));
     }
 
+    /// Asks for a picture to compare with.
+    pub fn store_picture(&mut self, studio: &Studio, ctx: &Context) {
+        let path = Path::new(&studio.kept.knobs.image);
+        self.choice = Some(Choice::beside(Purpose::StorePicture, path, ctx));
+    }
+
     pub(super) fn show(&mut self, ctx: &Context, studio: &mut Studio) {
         self.show_help(ctx);
         self.show_choice(ctx, studio);
@@ -211,8 +250,8 @@ impl Dialogs {
     fn show_choice(&mut self, ctx: &Context, studio: &mut Studio) {
         let Some(choice) = &mut self.choice else { return };
         let mut is_open = true;
-        let (title, purpose) = (choice.purpose.title(), choice.purpose);
-        let shown = Window::new(title)
+        let purpose = choice.purpose;
+        let shown = Window::new(purpose.title())
             .open(&mut is_open)
             .collapsible(false)
             .default_width(420.0)
@@ -220,12 +259,14 @@ impl Dialogs {
             .default_pos(ctx.content_rect().center())
             .show(ctx, |ui| choice.show(ui));
         let chosen = shown.and_then(|shown| shown.inner.flatten());
+        let depth = choice.depth;
         let is_left = ctx.input(|input| input.key_pressed(Key::Escape));
         if let Some(path) = &chosen {
             match purpose {
                 Purpose::Open => studio.open(path),
                 Purpose::SaveScene => studio.save_scene(Some(path)),
-                Purpose::SavePicture => studio.save_picture(path),
+                Purpose::SavePicture => studio.save_picture(path, depth),
+                Purpose::StorePicture => studio.store_file(path),
             }
         }
         if chosen.is_some() || !is_open || is_left {

@@ -1,15 +1,16 @@
 //! The pixel under the mouse, the histogram, and the stored picture.
 
-use super::Canvas;
+use super::Desk;
 use super::objects::name;
-use crate::cli::console::digits;
+use crate::cli::console::{digits, printable};
 use crate::gui::display::{Shown, View};
 use crate::gui::session::Frame;
 use crate::gui::studio::Studio;
 use crate::render::FAR;
 use eframe::egui::{CollapsingHeader, Color32, Grid, Pos2, Sense, Shape, Slider, Stroke, Ui, vec2};
 
-pub(super) fn show(ui: &mut Ui, studio: &mut Studio, canvas: &Canvas) {
+pub(super) fn show(ui: &mut Ui, studio: &mut Studio, desk: &mut Desk) {
+    let canvas = &desk.canvas;
     CollapsingHeader::new("Pixel").default_open(true).show(ui, |ui| {
         let frame = studio.session.frame();
         let lines = frame.zip(canvas.pixel).and_then(|(frame, pixel)| lines(&frame, pixel));
@@ -24,10 +25,17 @@ pub(super) fn show(ui: &mut Ui, studio: &mut Studio, canvas: &Canvas) {
     });
     CollapsingHeader::new("Histogram").default_open(true).show(ui, |ui| {
         if let Some(shown) = canvas.shown() {
-            histogram(ui, shown);
+            if shown.request.view.shows_values() {
+                histogram(ui, shown);
+            } else {
+                ui.weak("of the picture and of the albedo");
+            }
+            if let Some(error) = shown.error {
+                ui.weak(format!("relative error of all: {} %", digits(100.0 * error, 2)));
+            }
         }
     });
-    CollapsingHeader::new("Compare").default_open(true).show(ui, |ui| compare(ui, studio));
+    CollapsingHeader::new("Compare").default_open(true).show(ui, |ui| compare(ui, studio, desk));
 }
 
 /// The lines of the inspector.
@@ -104,15 +112,15 @@ fn histogram(ui: &mut Ui, shown: &Shown) {
     if shown.request.view == View::Picture {
         ui.weak(format!("black {:.1} %, white {:.1} %", share(0), share(255)));
     }
-    if let Some(error) = shown.error {
-        ui.weak(format!("relative error of all: {} %", digits(100.0 * error, 2)));
-    }
 }
 
-fn compare(ui: &mut Ui, studio: &mut Studio) {
+fn compare(ui: &mut Ui, studio: &mut Studio, desk: &mut Desk) {
     ui.horizontal(|ui| {
         if ui.button("Store as A").on_hover_text("Keep this picture to compare others with (A)").clicked() {
             studio.store();
+        }
+        if ui.button("A from file…").on_hover_text("Compare with a picture of this size").clicked() {
+            desk.dialogs.store_picture(studio, ui.ctx());
         }
         let mut is_on = studio.wipe.is_some();
         let has_stored = studio.stored.is_some();
@@ -130,6 +138,9 @@ fn compare(ui: &mut Ui, studio: &mut Studio) {
     }
     if let Some(stored) = &studio.stored {
         let [width, height] = stored.size();
-        ui.weak(format!("A: {width} x {height}, {} samples", stored.samples));
+        let file = studio.stored_file.as_ref().and_then(|path| path.file_name());
+        let origin = file
+            .map_or_else(|| format!("{} samples", stored.samples), |name| printable(&name.to_string_lossy()));
+        ui.weak(format!("A: {width} x {height}, {origin}"));
     }
 }

@@ -1,11 +1,15 @@
 //! The objects and their materials.
 
-use super::sky::{radiance, reflectance};
+use super::number::{ranged, reason};
+use super::sky::{radiance, reflectance, strength};
 use crate::cli::console::{number, printable};
 use crate::gui::studio::Studio;
+use crate::math::Rgb;
 use crate::scene::desc::{ObjectDesc, ShapeDesc};
 use crate::scene::edit::{Surface, SurfaceKind};
-use eframe::egui::{CollapsingHeader, ComboBox, DragValue, Grid, ScrollArea, Slider, TextStyle, Ui};
+use eframe::egui::{
+    CollapsingHeader, ComboBox, DragValue, Grid, Id, ScrollArea, Slider, SliderClamping, TextStyle, Ui,
+};
 
 pub(super) fn show(ui: &mut Ui, studio: &mut Studio) {
     let Some(loaded) = studio.document.loaded.clone() else { return };
@@ -71,7 +75,8 @@ fn material(ui: &mut Ui, studio: &mut Studio, index: usize) {
         ui.weak("Its materials come from the mesh's file.");
         return;
     };
-    Grid::new("material").num_columns(2).show(ui, |ui| fields(ui, &mut surface));
+    let id = Id::unique(("material", index));
+    Grid::new("material").num_columns(2).show(ui, |ui| fields(ui, id, &mut surface));
     studio.edit(|editable| {
         if let Some(place) = editable.surfaces.get_mut(index) {
             *place = Some(surface);
@@ -79,7 +84,7 @@ fn material(ui: &mut Ui, studio: &mut Studio, index: usize) {
     });
 }
 
-fn fields(ui: &mut Ui, surface: &mut Surface) {
+fn fields(ui: &mut Ui, id: Id, surface: &mut Surface) {
     let label = ui.label("Type");
     let list = ComboBox::from_id_salt("type").selected_text(surface.kind.name()).show_ui(ui, |ui| {
         for kind in SurfaceKind::ALL {
@@ -88,50 +93,61 @@ fn fields(ui: &mut Ui, surface: &mut Surface) {
     });
     list.response.labelled_by(label.id);
     ui.end_row();
-    color(ui, "Colour", &mut surface.color, surface.has_color_picture);
+    color(ui, id, "Colour", &mut surface.color, surface.has_color_picture);
     match surface.kind {
-        SurfaceKind::Diffuse => {
-            let label = ui.label("Emission").id;
-            let speed = 0.01 * surface.emission_strength.max(1.0);
-            let strength = DragValue::new(&mut surface.emission_strength).speed(speed).range(0.0..=1e6);
-            ui.add(strength.clamp_existing_to_range(false)).labelled_by(label);
-            ui.end_row();
-            if surface.emission_strength > 0.0 {
-                let label = ui.label("Light").id;
-                radiance(ui, label, &mut surface.emission_color);
-                ui.end_row();
-            }
-        }
-        SurfaceKind::Reflective => share(ui, "Specularity", &mut surface.specularity),
+        SurfaceKind::Diffuse => emission(ui, id, surface),
+        SurfaceKind::Reflective => share(ui, id, "Specularity", &mut surface.specularity),
         SurfaceKind::ClearCoat => {
-            share(ui, "Coat", &mut surface.coat);
-            color(ui, "Coat colour", &mut surface.coat_color, surface.has_coat_picture);
-            share(ui, "Specularity", &mut surface.specularity);
+            share(ui, id, "Coat", &mut surface.coat);
+            color(ui, id, "Coat colour", &mut surface.coat_color, surface.has_coat_picture);
+            share(ui, id, "Specularity", &mut surface.specularity);
         }
-        SurfaceKind::Refractive => {
-            let label = ui.label("n out / n in");
-            let ratio = DragValue::new(&mut surface.ratio).speed(0.005).range(0.01..=100.0);
-            ui.add(ratio.clamp_existing_to_range(false))
-                .labelled_by(label.id)
-                .on_hover_text("n outside / n inside: about 0.67 for glass, 0.42 for diamond");
-            ui.end_row();
-        }
+        SurfaceKind::Refractive => ratio(ui, id, &mut surface.ratio),
     }
 }
 
-fn color(ui: &mut Ui, label: &str, color: &mut crate::math::Rgb, is_picture: bool) {
-    let label = ui.label(label).id;
+fn emission(ui: &mut Ui, id: Id, surface: &mut Surface) {
+    let label = ui.label("Emission").id;
+    strength(ui, id.with("emission"), label, &mut surface.emission_strength);
+    ui.end_row();
+    if surface.emission_strength > 0.0 {
+        let label = ui.label("Light").id;
+        ui.vertical(|ui| radiance(ui, id.with("light"), label, &mut surface.emission_color));
+        ui.end_row();
+    }
+}
+
+fn ratio(ui: &mut Ui, id: Id, ratio: &mut f64) {
+    let label = ui.label("n out / n in").id;
+    let help = "n outside / n inside: about 0.67 for glass, 0.42 for diamond";
+    ui.vertical(|ui| {
+        let why = ranged(ui, id.with("ratio"), ratio, 0.01..=100.0, |ui, shown| {
+            ui.add(DragValue::new(shown).speed(0.005)).labelled_by(label).on_hover_text(help)
+        });
+        reason(ui, why);
+    });
+    ui.end_row();
+}
+
+fn color(ui: &mut Ui, id: Id, name: &str, color: &mut Rgb, is_picture: bool) {
+    let label = ui.label(name).id;
     if is_picture {
         ui.weak("a picture");
     } else {
-        reflectance(ui, label, color);
+        reflectance(ui, id.with(name), label, color);
     }
     ui.end_row();
 }
 
-fn share(ui: &mut Ui, label: &str, value: &mut f64) {
-    let label = ui.label(label);
+fn share(ui: &mut Ui, id: Id, name: &str, value: &mut f64) {
+    let label = ui.label(name).id;
     ui.spacing_mut().slider_width = 80.0;
-    ui.add(Slider::new(value, 0.0..=1.0).max_decimals(3)).labelled_by(label.id);
+    ui.vertical(|ui| {
+        let why = ranged(ui, id.with(name), value, 0.0..=1.0, |ui, shown| {
+            let slider = Slider::new(shown, 0.0..=1.0).clamping(SliderClamping::Never);
+            ui.add(slider.max_decimals(3)).labelled_by(label)
+        });
+        reason(ui, why);
+    });
     ui.end_row();
 }

@@ -1,5 +1,6 @@
 //! The fields on the left: the picture, the render, the camera.
 
+use super::number::{ranged, reason};
 use crate::accel::Precision;
 use crate::gui::form::Field;
 use crate::gui::settings::{Knobs, PreviewSize};
@@ -9,11 +10,14 @@ use crate::picture::{Depth, Format};
 use crate::render::AccelKind;
 use crate::sampling::SamplerKind;
 use crate::scene::desc::ApertureDesc;
-use eframe::egui::{CollapsingHeader, ComboBox, Grid, Key, Slider, TextEdit, Ui};
+use eframe::egui::{CollapsingHeader, ComboBox, Grid, Id, Key, Slider, SliderClamping, TextEdit, Ui};
 
-/// Of a field with one number, and of each of three in a row.
+/// Of a field with one number.
 const WIDE: f32 = 110.0;
-const NARROW: f32 = 42.0;
+/// Of the label in front of three fields in a row, which share what is left.
+const LABEL: f32 = 52.0;
+/// Between three fields in a row.
+const GAP: f32 = 3.0;
 /// Of the reason below a field, so that the panel does not grow.
 const REASON: f32 = 140.0;
 
@@ -108,13 +112,15 @@ fn file(ui: &mut Ui, knobs: &mut Knobs) {
 fn exposure(ui: &mut Ui, studio: &mut Studio) {
     let exposure = &mut studio.kept.knobs.exposure;
     ui.spacing_mut().slider_width = 90.0;
-    let slider = Slider::new(exposure, -10.0..=10.0).clamping(eframe::egui::SliderClamping::Never);
-    ui.horizontal(|ui| {
-        let help = "Brightness of what is shown, and of pictures that are not linear";
+    let help = "Brightness of what is shown, and of pictures that are not linear";
+    let row = ui.horizontal(|ui| {
         let label = ui.label("Exposure").on_hover_text(help);
-        ui.add(slider.fixed_decimals(1).suffix(" EV")).labelled_by(label.id);
+        ranged(ui, Id::unique("exposure"), exposure, -100.0..=100.0, |ui, shown| {
+            let slider = Slider::new(shown, -10.0..=10.0).clamping(SliderClamping::Never);
+            ui.add(slider.fixed_decimals(1).suffix(" EV")).labelled_by(label.id)
+        })
     });
-    *exposure = exposure.clamp(-100.0, 100.0);
+    reason(ui, row.inner);
 }
 
 fn camera(ui: &mut Ui, studio: &mut Studio) {
@@ -128,28 +134,28 @@ fn camera(ui: &mut Ui, studio: &mut Studio) {
         row(ui, studio, Field::Lens, lens);
         row(ui, studio, Field::Focus, Field::Focus.label());
         row(ui, studio, Field::Roll, Field::Roll.label());
-        triple(ui, studio, "Position", Field::Position);
-        triple(ui, studio, "Look at", Field::LookingAt);
     });
+    triple(ui, studio, "Position", Field::Position);
+    triple(ui, studio, "Look at", Field::LookingAt);
     if ui.button("Reset camera").on_hover_text("As in the file (R)").clicked() {
         studio.reset_camera();
     }
 }
 
-/// Three fields in a row.
+/// Three fields in a row, as wide as the panel allows.
 fn triple(ui: &mut Ui, studio: &mut Studio, label: &str, field: fn(usize) -> Field) {
-    let label = ui.label(label);
-    ui.vertical(|ui| {
-        ui.set_max_width(REASON);
-        ui.horizontal(|ui| {
-            ui.spacing_mut().item_spacing.x = 3.0;
-            for axis in 0..3 {
-                input(ui, studio, field(axis), NARROW).labelled_by(label.id);
-            }
-        });
-        (0..3).for_each(|axis| studio.form.show_error(ui, field(axis), &studio.kept.knobs));
+    // A field takes its margins on top of its width, four points on either side.
+    let width = (ui.available_width() - LABEL) / 3.0 - GAP - 8.0;
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = GAP;
+        let start = ui.cursor().left();
+        let label = ui.label(label);
+        ui.add_space((LABEL - (label.rect.right() - start)).max(0.0));
+        for axis in 0..3 {
+            input(ui, studio, field(axis), width).labelled_by(label.id);
+        }
     });
-    ui.end_row();
+    (0..3).for_each(|axis| studio.form.show_error(ui, field(axis), &studio.kept.knobs));
 }
 
 fn choices(ui: &mut Ui, studio: &mut Studio) {

@@ -1,56 +1,42 @@
-//! The foot of the window: what is done, what it costs, where it leads, what there is to say.
+//! The foot of the window: what is done, what it costs, where it leads, and what was told last. It is two lines high whatever
+//! they say: another height would be another place of the picture, and the preview would start anew.
 
 use crate::gui::forecast::{costs, forecasts, share};
-use crate::gui::form::wrong_color;
 use crate::gui::session::{Stage, Status};
 use crate::gui::studio::Studio;
 use crate::render::Ended;
-use eframe::egui::{ProgressBar, RichText, ScrollArea, Ui};
+use eframe::egui::{Label, ProgressBar, Ui};
+
+/// Points of the foot's height in this style, with its margins.
+pub(super) fn height(ui: &Ui) -> f32 {
+    let spacing = ui.spacing();
+    2.0 * spacing.interact_size.y + spacing.item_spacing.y + 8.0
+}
 
 pub(super) fn show(ui: &mut Ui, studio: &mut Studio) {
     let status = studio.session.status();
-    problems(ui, studio);
-    ui.horizontal_wrapped(|ui| {
+    ui.horizontal(|ui| {
         ui.label(stage(&status));
         if status.is_busy() && status.total > 0 {
             ui.add(ProgressBar::new(share(&status) as f32).desired_width(110.0).show_percentage());
         }
-        let settings = studio.session.frame().map(|frame| (frame.settings.clone(), frame.samples));
-        if let Some((settings, samples)) = settings {
-            ui.label(format!("{} x {}, {} samples", settings.width, settings.height, samples));
-            for text in costs(&status).into_iter().chain(forecasts(&status, &settings, &studio.kept.knobs)) {
-                ui.separator();
-                ui.label(text);
-            }
+        if let Some(frame) = studio.session.frame() {
+            let settings = &frame.settings;
+            let mut texts =
+                vec![format!("{} x {}, {} samples", settings.width, settings.height, frame.samples)];
+            texts.extend(costs(&status));
+            texts.extend(forecasts(&status, settings, frame.blocks.as_deref(), &studio.kept.knobs));
+            ui.add(Label::new(texts.join("   |   ")).truncate());
         }
     });
-    if let Some(notice) = studio.notice.clone() {
-        ui.horizontal(|ui| {
-            if ui.small_button("x").on_hover_text("Put away").clicked() {
-                studio.notice = None;
-            }
-            let text = RichText::new(&notice.text);
-            ui.label(if notice.is_error { text.color(wrong_color(ui.visuals())) } else { text });
-        });
-    }
-}
-
-/// Errors and warnings of the scene, with their lines.
-fn problems(ui: &mut Ui, studio: &Studio) {
-    let diagnostics = &studio.document.diagnostics;
-    if diagnostics.is_empty() {
-        return;
-    }
-    let has_error = diagnostics.iter().any(|one| one.severity == crate::error::Severity::Error);
-    let height = if has_error { 160.0 } else { 70.0 };
-    ScrollArea::vertical().id_salt("problems").max_height(height).show(ui, |ui| {
-        for diagnostic in diagnostics.iter().take(100) {
-            let text = RichText::new(diagnostic.to_string()).monospace();
-            let is_error = diagnostic.severity == crate::error::Severity::Error;
-            ui.label(if is_error { text.color(wrong_color(ui.visuals())) } else { text });
+    ui.horizontal(|ui| {
+        let told = studio.notice.as_ref().filter(|notice| !notice.is_error);
+        let Some(text) = told.map(|notice| notice.text.clone()) else { return };
+        if ui.small_button("x").on_hover_text("Put away").clicked() {
+            studio.notice = None;
         }
+        ui.add(Label::new(text).truncate());
     });
-    ui.separator();
 }
 
 fn stage(status: &Status) -> String {

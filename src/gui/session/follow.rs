@@ -1,7 +1,7 @@
 //! Follows a render for the window: frames, progress, pauses, the end.
 
 use super::work::Task;
-use super::{Frame, Look, Shared, Stage};
+use super::{BlockErrors, Frame, Look, Shared, Stage};
 use crate::film::Film;
 use crate::math::Rgb;
 use crate::render::{FeaturePlanes, Prepared, Progress, Settings, SoFar, Watch};
@@ -35,6 +35,14 @@ struct Memory {
     /// The means after half as many samples.
     before: Option<(u64, Vec<Rgb>)>,
     errors: Option<Arc<Vec<f32>>>,
+    blocks: Option<Arc<BlockErrors>>,
+}
+
+impl Memory {
+    fn learn(&mut self, light: &[Rgb], errors: Vec<f32>, width: u32, samples: u64) {
+        self.blocks = Some(Arc::new(BlockErrors::new(light, &errors, width, samples)));
+        self.errors = Some(Arc::new(errors));
+    }
 }
 
 impl<'f> Follow<'f> {
@@ -47,7 +55,15 @@ impl<'f> Follow<'f> {
         look: Option<Arc<Look>>,
     ) -> Follow<'f> {
         let (start, held) = (Instant::now(), shared.held());
-        let memory = Memory { told: start, shown: None, shown_samples: 0, look, before: None, errors: None };
+        let memory = Memory {
+            told: start,
+            shown: None,
+            shown_samples: 0,
+            look,
+            before: None,
+            errors: None,
+            blocks: None,
+        };
         Follow { shared, task, prepared, settings, is_coarse, start, held, memory: Mutex::new(memory) }
     }
 
@@ -67,14 +83,14 @@ impl<'f> Follow<'f> {
 
     /// Hands over a picture.
     pub(super) fn show(&self, light: Vec<Rgb>, samples: u64, film: &Film) {
-        let (look, errors) = {
+        let (look, errors, blocks) = {
             let mut memory = self.memory();
             memory.shown = Some(Instant::now());
             memory.shown_samples = samples;
             if film.error_bar(0).is_some() {
-                memory.errors = Some(Arc::new(error_bars(film)));
+                memory.learn(&light, error_bars(film), self.settings.width, samples);
             }
-            (memory.look.clone(), memory.errors.clone())
+            (memory.look.clone(), memory.errors.clone(), memory.blocks.clone())
         };
         let counts = self.settings.noise.map(|_| {
             (0..light.len()).map(|pixel| u32::try_from(film.samples_of(pixel)).unwrap_or(u32::MAX)).collect()
@@ -86,6 +102,7 @@ impl<'f> Follow<'f> {
             settings: self.settings.clone(),
             samples,
             errors,
+            blocks,
             counts,
             look,
             loaded: Arc::clone(&self.task.order.loaded),
@@ -116,7 +133,8 @@ impl<'f> Follow<'f> {
         if let Some((half, before)) = &memory.before
             && 2 * half == samples
         {
-            memory.errors = Some(Arc::new(differences(light, before)));
+            let errors = differences(light, before);
+            memory.learn(light, errors, self.settings.width, samples);
         }
         memory.before = Some((samples, light.to_vec()));
     }

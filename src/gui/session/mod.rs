@@ -7,7 +7,7 @@ mod follow;
 mod frame;
 mod work;
 
-pub use frame::{Frame, Look};
+pub use frame::{BlockErrors, Frame, Look};
 
 use super::document::Loaded;
 use crate::output::Wanted;

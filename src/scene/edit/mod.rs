@@ -1,9 +1,11 @@
 //! Changing a scene in its text: the values that a window can edit, and writing them back so that comments, order and every
 //! line that did not change stay as they are.
 
+mod moved;
 mod surface;
 mod text;
 
+pub use moved::moved;
 pub use surface::{Surface, SurfaceKind};
 
 use super::desc::{ApertureDesc, CameraDesc, EnvironmentDesc, SceneDesc};

@@ -296,7 +296,7 @@ fn is_word(text: &str) -> bool {
 }
 
 /// A text in double quotes.
-fn quoted(text: &str) -> String {
+pub(super) fn quoted(text: &str) -> String {
     let mut quoted = String::from("\"");
     for c in text.chars() {
         match c {
@@ -330,6 +330,6 @@ fn number(x: f64) -> String {
     }
 }
 
-fn lost(key: &str) -> Error {
+pub(super) fn lost(key: &str) -> Error {
     Error::Usage(format!("the scene can't be saved: the place of {key} in the file was not found"))
 }
