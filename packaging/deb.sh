@@ -20,7 +20,8 @@ if [ -z "${PROGRAM:-}" ]; then
     cargo build --release --locked
 elif [ "$PROGRAM" != "$program" ]; then
     mkdir -p "$target/release"
-    cp "$PROGRAM" "$program"
+    # Not through the hard link that cargo has made.
+    cp --remove-destination "$PROGRAM" "$program"
 fi
 mkdir -p "$folder/docs"
 "$program" man | gzip -9n > "$folder/pathtracer.1.gz"

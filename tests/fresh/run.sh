@@ -4,7 +4,8 @@
 #   render    the README's first command
 #   tests     the README's second command
 #   both      these two (the default)
-#   package   packaging/deb.sh in that root; or nothing there, but the package DEB: then it is installed in a clean root
+#   package   packaging/deb.sh in that root (with PROGRAM in the environment: of a program that is built there already, such
+#             as the one that the tests leave, /root/target/debug/pathtracer); or nothing there, but the package DEB: then it is installed in a clean root
 #             without Rust, and renders an example as a user would
 # Needs root, debootstrap and a Rust toolchain of rustup here, which the new root borrows. A root that is there already is
 # used again: then the first command is not timed from nothing. Certificates and cargo's settings of this machine are
@@ -65,12 +66,15 @@ say_hash() {
     printf 'SHA-256 of %s on %s: %s\n' "$(basename "$1")" "$suite" "$(sha256sum < "$1" | cut -d ' ' -f 1)"
 }
 build_package() {
-    timed 'build the package' "$1" "
+    timed 'install what the build needs' "$1" '
         apt-get -qq update
-        apt-get -qq install -y build-essential libclang-dev libembree-dev libopenimageio-dev pkg-config
-        cargo install --quiet cargo-deb --locked
-        cd /root/pathtracer && packaging/deb.sh && packaging/check.sh /root/target/debian/pathtracer_*.deb"
-    package=$(echo "$1"/root/target/debian/pathtracer_*.deb)
+        apt-get -qq install -y build-essential libclang-dev libembree-dev libopenimageio-dev pkg-config'
+    timed 'build cargo-deb' "$1" 'cargo install --quiet --debug cargo-deb --locked'
+    # From nothing, whatever has been built before.
+    timed 'build everything and the package' "$1" '
+        export CARGO_TARGET_DIR=/root/pathtracer/target PROGRAM='"${PROGRAM:-}"'
+        cd /root/pathtracer && packaging/deb.sh && packaging/check.sh target/debian/pathtracer_*.deb'
+    package=$(echo "$1"/root/pathtracer/target/debian/pathtracer_*.deb)
 }
 # Installs the package where there is no compiler, and uses it as somebody who is not root.
 try_package() {
