@@ -72,6 +72,20 @@ fn floats_beyond_the_range_of_f32_become_its_largest_number() {
     assert_eq!(floats, [f32::MAX, f32::MAX, 2.5, 0.0, 0.0, 1.0]);
 }
 
+#[cfg(unix)]
+#[test]
+fn a_picture_that_is_replaced_passes_its_permissions_on() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = folder();
+    let path = folder.path().join("a.png");
+    std::fs::write(&path, "before").expect("a file");
+    std::fs::set_permissions(&path, PermissionsExt::from_mode(0o640)).expect("permissions");
+    let destination = Destination::new(&path).expect("a place");
+    output::write(&film(Rgb::ONE, Rgb::ZERO), 0.0, &destination).expect("a picture");
+    let mode = std::fs::metadata(&path).expect("a file").permissions().mode();
+    assert_eq!(mode & 0o777, 0o640);
+}
+
 #[test]
 fn a_png_reads_back_as_it_was_written() {
     let folder = folder();
