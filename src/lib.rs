@@ -24,7 +24,7 @@
 //! 13. [`study`]: measuring all that.
 //! 14. [`cli`], [`gui`]: the program from outside.
 //!
-//! A module uses only modules above it in this list (a test checks it); `render`, `study`, `cli` and `gui` see everything.
+//! A module uses only modules above it in this list (a test checks it).
 //!
 //! # A scene becomes a picture
 //!
@@ -68,6 +68,8 @@ pub mod error;
 pub mod math;
 
 mod memory;
+mod whole_file;
+mod words;
 
 pub mod picture;
 

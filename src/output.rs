@@ -26,6 +26,9 @@ use crate::picture::{Denoiser, Depth, Destination, Metadata, Noisy, Picture, Pix
 use crate::render::{FeaturePlanes, Rendered};
 
 /// Writes the means of a film alone; see [`picture`].
+///
+/// # Errors
+/// As [`Destination::write_picture`].
 pub fn write(film: &Film, exposure: f64, destination: &Destination) -> Result<()> {
     let light: Vec<f64> = channels(film).collect();
     let size = (film.width(), film.height());
@@ -47,6 +50,9 @@ pub fn picture((width, height): (u32, u32), light: &[f64], exposure: f64, depth:
 
 /// Writes the error of every pixel into an EXR: R the mean of its components, G the standard error of that, B half the width
 /// of the 95 % interval. Whether it could: the film needs samples in eight scrambles.
+///
+/// # Errors
+/// As [`Destination::write_picture`].
 pub fn write_error_bars(film: &Film, destination: &Destination) -> Result<bool> {
     let pixels = film.width() as usize * film.height() as usize;
     let bar = |pixel: usize| {
@@ -60,11 +66,6 @@ pub fn write_error_bars(film: &Film, destination: &Destination) -> Result<bool> 
     let floats = bars.into_iter().flatten().collect();
     destination.write(film.width(), film.height(), &Pixels::Floats(floats))?;
     Ok(true)
-}
-
-/// The means of a film x 2^`exposure` (in stops), clipped to 0..1, sRGB-encoded, in 8 bits: R G B, row by row.
-pub fn display_bytes(film: &Film, exposure: f64) -> Vec<u8> {
-    displayed(channels(film), exposure).map(quantize).collect()
 }
 
 /// Values x 2^`exposure` (in stops), clipped to 0..1, sRGB-encoded.
@@ -91,6 +92,9 @@ pub fn linear_floats(film: &Film) -> Vec<f32> {
 
 /// The light of a render without its noise, as the denoiser guesses it by the albedo and the normals: R G B, row by row. The
 /// render must have collected features.
+///
+/// # Errors
+/// As [`Denoiser::denoise`].
 pub fn denoised(rendered: &Rendered, denoiser: &Denoiser) -> Result<Vec<f32>> {
     let guides = rendered.features.as_ref().map(FeaturePlanes::guides);
     let [albedo, normal] = guides.unwrap_or_default();

@@ -96,8 +96,29 @@ pub enum AccelKind {
 }
 
 impl AccelKind {
-    /// All kinds.
+    /// In the order in which they are listed to users.
     pub const ALL: [AccelKind; 2] = [AccelKind::Embree, AccelKind::Native];
+
+    /// Those of this build, the default first.
+    pub const BUILT: &[AccelKind] =
+        if cfg!(feature = "embree") { &AccelKind::ALL } else { &[AccelKind::Native] };
+
+    /// Whether this build has it.
+    ///
+    /// # Errors
+    /// It has not; what to do about it.
+    pub fn check(self) -> Result<()> {
+        if AccelKind::BUILT.contains(&self) { Ok(()) } else { Err(self.missing()) }
+    }
+
+    /// The answer to who asks for it in a build without it.
+    pub(crate) fn missing(self) -> Error {
+        let name = self.name();
+        Error::Usage(format!(
+            "this build has no accelerator `{name}`, only `native`: install Debian's lib{name}-dev and build with \
+             `--features {name}`"
+        ))
+    }
 
     /// The name on the command line and in pictures.
     pub const fn name(self) -> &'static str {
@@ -111,7 +132,7 @@ impl AccelKind {
 impl Default for AccelKind {
     /// Embree where it is compiled in.
     fn default() -> AccelKind {
-        if cfg!(feature = "embree") { AccelKind::Embree } else { AccelKind::Native }
+        AccelKind::BUILT[0]
     }
 }
 
@@ -206,8 +227,10 @@ pub struct Rendered {
 
 /// Renders what `camera` sees of `world`.
 ///
-/// A render that is cancelled is no error: it holds the complete passes, maybe none. Errors: settings that can't be, an
-/// accelerator that can't be built, a bug met on the way.
+/// A render that is cancelled is no error: it holds the complete passes, maybe none.
+///
+/// # Errors
+/// Settings that can't be, an accelerator that can't be built, a bug met on the way.
 pub fn render(
     world: &World,
     camera: &CameraDesc,
@@ -218,6 +241,9 @@ pub fn render(
 }
 
 /// Renders on from where a checkpoint was; see [`render`].
+///
+/// # Errors
+/// As [`render`].
 pub fn resume(
     world: &World,
     camera: &CameraDesc,
@@ -233,6 +259,9 @@ pub fn resume(
 }
 
 /// Sums `sample(x, y, index, counters)` over all pixels and samples of `settings`; [`render`] without a scene.
+///
+/// # Errors
+/// Settings that can't be, a bug met on the way.
 pub fn accumulate<F>(settings: &Settings, watch: &dyn Watch, sample: F) -> Result<Rendered>
 where
     F: Fn(u32, u32, u64, &mut Counters) -> Rgb + Sync,
@@ -256,12 +285,4 @@ fn panic_message(payload: &(dyn Any + Send)) -> &str {
     let text = payload.downcast_ref::<&str>().copied();
     text.or_else(|| payload.downcast_ref::<String>().map(String::as_str))
         .unwrap_or("a panic without a message")
-}
-
-fn no_embree() -> Error {
-    Error::Usage(
-        "this build has no Embree: install Debian's libembree-dev and build with `--features embree`, or use \
-         `--accel native`"
-            .into(),
-    )
 }

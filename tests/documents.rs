@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 /// All documents, below the project's root.
 fn documents() -> Vec<PathBuf> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let folders =
-        [".", "docs", "tests/extremes", "tests/faults", "tests/golden"].map(|folder| root.join(folder));
+    let folders = [".", "docs", "tests/extremes", "tests/faults", "tests/fresh", "tests/golden"]
+        .map(|folder| root.join(folder));
     let files = folders.iter().flat_map(|folder| fs::read_dir(folder).expect("a folder"));
     let paths = files.map(|file| file.expect("an entry").path());
     paths.filter(|path| path.extension().is_some_and(|extension| extension == "md")).collect()

@@ -1,7 +1,7 @@
 use pathtracer::error::Error;
 use pathtracer::film::{Film, Sums};
 use pathtracer::math::Rgb;
-use pathtracer::output::{self, display_bytes, linear_floats, quantize, srgb_encode};
+use pathtracer::output::{self, linear_floats, quantize, srgb_encode};
 use pathtracer::picture::{Depth, Destination, Format, Metadata, Pixels};
 use std::fs;
 use std::path::Path;
@@ -58,14 +58,32 @@ fn every_byte_comes_back_through_the_curve() {
 fn exposure_doubles_the_light_of_a_png_a_stop() {
     let dark = film(Rgb::splat(0.1), Rgb::new(0.2, 0.3, 0.4));
     let bright = film(Rgb::splat(0.4), Rgb::new(0.8, 1.2, 1.6));
-    assert_eq!(display_bytes(&dark, 2.0), display_bytes(&bright, 0.0));
-    assert_eq!(display_bytes(&bright, -2.0), display_bytes(&dark, 0.0));
+    let shown = |film: &Film, exposure| {
+        let light: Vec<f64> = output::channels(film).collect();
+        output::picture((film.width(), film.height()), &light, exposure, Depth::Eight).pixels
+    };
+    assert_eq!(shown(&dark, 2.0), shown(&bright, 0.0));
+    assert_eq!(shown(&bright, -2.0), shown(&dark, 0.0));
 }
 
 #[test]
 fn floats_beyond_the_range_of_f32_become_its_largest_number() {
     let floats = linear_floats(&film(Rgb::new(1e300, f64::INFINITY, 2.5), Rgb::new(1e-300, 0.0, 1.0)));
     assert_eq!(floats, [f32::MAX, f32::MAX, 2.5, 0.0, 0.0, 1.0]);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_picture_that_is_replaced_passes_its_permissions_on() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = folder();
+    let path = folder.path().join("a.png");
+    std::fs::write(&path, "before").expect("a file");
+    std::fs::set_permissions(&path, PermissionsExt::from_mode(0o640)).expect("permissions");
+    let destination = Destination::new(&path).expect("a place");
+    output::write(&film(Rgb::ONE, Rgb::ZERO), 0.0, &destination).expect("a picture");
+    let mode = std::fs::metadata(&path).expect("a file").permissions().mode();
+    assert_eq!(mode & 0o777, 0o640);
 }
 
 #[test]

@@ -1,13 +1,16 @@
 //! Nanoseconds a ray, printed and not asserted: `cargo test --release speed -- --ignored --nocapture` on an idle machine.
 //! One thread; accelerators and precisions take turns, medians of all rounds.
 
+#[cfg(feature = "embree")]
+mod bare;
+
 use crate::support::meshes;
 use crate::support::random::Random;
 use pathtracer::accel::bvh::Bvh;
 #[cfg(feature = "embree")]
 use pathtracer::accel::embree::Embree;
 use pathtracer::accel::{Accelerator, BuildOptions, Precision};
-use pathtracer::geometry::{Ball, Geometry, PrimitiveId, Ray, Shape, Solid};
+use pathtracer::geometry::{Ball, Geometry, MeshPart, PrimitiveId, Ray, Shape, Solid};
 use pathtracer::math::DVec3;
 use std::hint::black_box;
 use std::time::Instant;
@@ -18,14 +21,18 @@ const RAYS: usize = 200_000;
 /// An accelerator behind one type, and what it is called.
 type Named<'g> = (String, Box<dyn Accelerator + 'g>);
 
-/// A noisy sphere of about 100,000 triangles, maybe standing on a ball of radius 1e7.
+/// A noisy sphere of about 100,000 triangles.
+fn noisy_sphere() -> MeshPart {
+    meshes::sphere(1.0, 316, 0.05, 1)
+}
+
+/// The sphere, maybe standing on a ball of radius 1e7.
 fn geometry(on_a_ball: bool) -> Geometry {
     let ground = Solid {
         object: 0,
         shape: Shape::Ball(Ball { center: DVec3::new(0.0, 0.0, -1e7 - 1.1), radius: 1e7 }),
     };
-    let mut mesh = meshes::sphere(1.0, 316, 0.05, 1);
-    mesh.object = 1;
+    let mesh = MeshPart { object: 1, ..noisy_sphere() };
     Geometry::new(if on_a_ball { vec![ground] } else { Vec::new() }, &[mesh])
 }
 
@@ -107,6 +114,30 @@ fn nanoseconds_a_ray() {
         for ((name, _), times) in all.iter().zip(&times) {
             println!("{name:14} closest {:6.0} ns  any {:6.0} ns", median(times, 0), median(times, 1));
         }
+    }
+}
+
+/// What the front costs that all accelerators share: Embree's own calls beside them, on the sphere alone.
+#[cfg(feature = "embree")]
+#[test]
+#[ignore = "a measurement"]
+fn embree_alone() {
+    let rays = chords();
+    let mesh = noisy_sphere();
+    let geometry = geometry(false);
+    let bare = [("robust", true), ("fast", false)]
+        .map(|(name, is_robust)| (name, bare::Bare::new(&mesh, is_robust)));
+    let all = accelerators(&geometry);
+    let mut times = vec![Vec::new(); bare.len() + all.len()];
+    for _ in 0..ROUNDS {
+        let alone = bare.iter().map(|(_, bare)| bare.measure(&rays));
+        let fronted = all.iter().map(|(_, accelerator)| measure(accelerator.as_ref(), &rays));
+        alone.chain(fronted).zip(&mut times).for_each(|(time, times)| times.push(time));
+    }
+    let names =
+        bare.iter().map(|(name, _)| format!("bare {name}")).chain(all.iter().map(|(name, _)| name.clone()));
+    for (name, times) in names.zip(&times) {
+        println!("{name:14} closest {:6.0} ns  any {:6.0} ns", median(times, 0), median(times, 1));
     }
 }
 

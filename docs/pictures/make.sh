@@ -1,25 +1,28 @@
 #!/usr/bin/env bash
-# docs/pictures/make.sh [gallery|keys|all [PROGRAM [TIMES]]]: renders the pictures of the README's gallery, and those of
-# docs/scenes.md, whose scenes are below, with TIMES (1) as many samples. Needs a build with OpenImageIO, as the pictures
-# are JPEG.
+# docs/pictures/make.sh [gallery|keys|all [PROGRAM [PERCENT [FOLDER]]]]: renders the pictures of the README's gallery, and those
+# of docs/scenes.md, whose scenes are below, with PERCENT (100) of their samples, but at least one, into FOLDER (this one).
+# Needs a build with OpenImageIO, as the pictures are JPEG.
 set -euo pipefail
-cd "$(dirname "$0")"
-root=$(cd ../.. && pwd)
+root=$(cd "$(dirname "$0")/../.." && pwd)
 what=${1:-all}
-program=${2:-$root/target/release/pathtracer}
-times=${3:-1}
+program=$(realpath "${2:-$root/target/release/pathtracer}")
+percent=${3:-100}
+cd "${4:-$root/docs/pictures}"
 work=$(mktemp -d)
 trap 'rm -r "$work"' EXIT
 
+# share SAMPLES: as many as are wanted of them.
+share() { echo $((percent * $1 > 100 ? percent * $1 / 100 : 1)); }
+
 # sample NAME WIDTH HEIGHT SAMPLES: a picture of a sample scene.
 sample() {
-    "$program" "$root/scenes/$1.yaml" "$2" "$3" "$((times * $4))" 20 "gallery_$1.jpg" --quiet
+    "$program" "$root/scenes/$1.yaml" "$2" "$3" "$(share "$4")" 20 "gallery_$1.jpg" --quiet
 }
 
-# key NAME: a picture of the scene on standard input.
+# key NAME [SAMPLES]: a picture of the scene on standard input; those with mirrors and glass need more samples.
 key() {
     cat > "$work/$1.yaml"
-    "$program" "$work/$1.yaml" 240 150 "$((times * 20))" 12 "key_$1.jpg" --quiet --error-estimate off
+    "$program" "$work/$1.yaml" 240 150 "$(share "${2:-20}")" 12 "key_$1.jpg" --quiet --error-estimate off
 }
 
 # camera [KEY: VALUE]...: looks along +x at the origin's surroundings; later keys replace earlier ones.
@@ -77,6 +80,7 @@ keys() {
     # Camera
     for fov in 0.12 0.2 0.35; do { camera "Fov: $fov"; soft_sky; stage; row; } | key "fov_$fov"; done
     for radius in 0 0.08 0.25; do { camera "ApertureRadius: $radius"; soft_sky; stage; row; } | key "aperture_$radius"; done
+    for strength in 35 105; do { camera "DepthOfField: $strength"; soft_sky; stage; row; } | key "depth_of_field_$strength"; done
     for distance in 5 7 10.2; do
         { camera 'ApertureRadius: 0.2' "FocusDistance: $distance"; soft_sky; stage; row; } | key "focus_$distance"
     done
@@ -104,6 +108,10 @@ keys() {
         object 'Type: Rectangle' 'Position: [0, -0.65, 0.5]' 'Width: 0.8' 'Height: 1' 'Rotation: [0, 0, -25]' "$clay"
         knight -1.75 'Scale: 0.6' 'Rotation: [0, 0, -120]'; } | key shapes
     { camera; soft_sky; stage
+        for at in '1.5 0.3' '0.2 0.5' '-1.4 0.7'; do
+            object 'Type: Ball' "Position: [0, ${at% *}, ${at#* }]" "Radius: ${at#* }" "$clay"
+        done; } | key radius
+    { camera; soft_sky; stage
         for at in '1.4 0,0,0' '0 0,0,35' '-1.45 30,0,35'; do
             object 'Type: Box' "Position: [0, ${at% *}, 0.7]" 'Width: 0.8' 'Height: 0.8' 'Depth: 0.8' "Rotation: [${at#* }]" "$clay"
         done; } | key rotation
@@ -115,28 +123,33 @@ keys() {
         # It lies, and would reach below the floor.
         knight 0 'Scale: 0.7' 'Axes: ZUp' 'Rotation: [0, 0, -120]' | sed '/Position/s/0\]/0.41]/'
         knight -1.5 'Scale: 0.7' 'Axes: SwapYZ' 'Rotation: [0, 0, -120]'; } | key axes
-    { camera 'Fov: 0.1'; soft_sky; stage
+    { camera 'Fov: 0.12'; soft_sky; stage
         object 'Type: TriangleMesh' "Filepath: $work/globe.obj" 'Position: [0, 0.65, 0.75]' 'Smooth: true' "$clay"
         object 'Type: TriangleMesh' "Filepath: $work/globe.obj" 'Position: [0, -0.65, 0.75]' 'Smooth: false' "$clay"; } | key smooth
 
     # Materials
     camera > "$work/camera"
-    materials() { local name=$1; shift; { cat "$work/camera"; three "$@"; } | key "$name"; }
-    materials color 'Type: Diffuse, Color: [0.75, 0.15, 0.1]' 'Type: Diffuse, Color: [0.8, 0.8, 0.8]' 'Type: Diffuse, Color: [0.1, 0.1, 0.1]'
+    materials() { local name=$1 samples=$2; shift 2; { cat "$work/camera"; three "$@"; } | key "$name" "$samples"; }
+    materials color 20 'Type: Diffuse, Color: [0.75, 0.15, 0.1]' 'Type: Diffuse, Color: [0.8, 0.8, 0.8]' 'Type: Diffuse, Color: [0.1, 0.1, 0.1]'
     local glow='Type: Diffuse, Color: [0.3, 0.3, 0.3], EmissionColor: [1, 0.6, 0.25], EmissionStrength'
-    materials emission "$glow: 0" "$glow: 0.3" "$glow: 1"
-    materials specularity 'Type: Reflective, Color: [0.9, 0.8, 0.6], Specularity: 1' 'Type: Reflective, Color: [0.9, 0.8, 0.6], Specularity: 0.85' \
+    materials emission 20 "$glow: 0" "$glow: 0.3" "$glow: 1"
+    materials specularity 400 'Type: Reflective, Color: [0.9, 0.8, 0.6], Specularity: 1' 'Type: Reflective, Color: [0.9, 0.8, 0.6], Specularity: 0.85' \
         'Type: Reflective, Color: [0.9, 0.8, 0.6], Specularity: 0.5'
-    materials coat 'Type: ClearCoat, Color: [0.6, 0.08, 0.06], ClearCoat: 0.05' 'Type: ClearCoat, Color: [0.6, 0.08, 0.06], ClearCoat: 0.2' \
+    materials coat 400 'Type: ClearCoat, Color: [0.6, 0.08, 0.06], ClearCoat: 0.05' 'Type: ClearCoat, Color: [0.6, 0.08, 0.06], ClearCoat: 0.2' \
         'Type: ClearCoat, Color: [0.6, 0.08, 0.06], ClearCoat: 0.6'
-    materials coat_color 'Type: ClearCoat, Color: [0.1, 0.1, 0.1], ClearCoat: 0.5' 'Type: ClearCoat, Color: [0.1, 0.1, 0.1], ClearCoat: 0.5, ClearCoatColor: [1, 0.75, 0.3]' \
+    materials coat_color 400 'Type: ClearCoat, Color: [0.1, 0.1, 0.1], ClearCoat: 0.5' 'Type: ClearCoat, Color: [0.1, 0.1, 0.1], ClearCoat: 0.5, ClearCoatColor: [1, 0.75, 0.3]' \
         'Type: ClearCoat, Color: [0.1, 0.1, 0.1], ClearCoat: 0.5, ClearCoatColor: [1, 0.75, 0.3], Specularity: 0.85'
-    materials ratio 'Type: Refractive, RefractionRatio: 0.9' 'Type: Refractive, RefractionRatio: 0.67' 'Type: Refractive, RefractionRatio: 0.42'
+    materials ratio 400 'Type: Refractive, RefractionRatio: 0.9' 'Type: Refractive, RefractionRatio: 0.67' 'Type: Refractive, RefractionRatio: 0.42'
     local wood="Color: { Image: $root/objects/wood.png }"
     { camera; soft_sky; stage
         ball 0 1.5 0.7 "Type: Diffuse, $wood"
         object 'Type: Box' 'Position: [0, 0, 0.55]' 'Width: 1.1' 'Height: 1.1' 'Depth: 1.1' 'Rotation: [0, 0, 30]' "Material: { Type: Diffuse, $wood }"
-        object 'Type: Rectangle' 'Position: [0, -1.6, 0.6]' 'Width: 1.2' 'Height: 1.2' 'Rotation: [0, 0, -20]' "Material: { Type: ClearCoat, $wood, ClearCoat: 0.15 }"; } | key image
+        object 'Type: Rectangle' 'Position: [0, -1.6, 0.6]' 'Width: 1.2' 'Height: 1.2' 'Rotation: [0, 0, -20]' "Material: { Type: ClearCoat, $wood, ClearCoat: 0.15 }"; } | key image 200
+    { camera; soft_sky; stage
+        for at in '0.75 sRGB' '-0.75 Linear'; do
+            object 'Type: Rectangle' "Position: [0, ${at% *}, 0.7]" 'Width: 1.3' 'Height: 1.3' \
+                "Material: { Type: Diffuse, Color: { Image: $root/objects/wood.png, ColorSpace: ${at#* } } }"
+        done; } | key color_space
     { camera 'Fov: 0.17'; soft_sky; stage
         object 'Type: TriangleMesh' "Filepath: $root/objects/lantern.obj" 'Position: [0, 0.8, 0]' 'Rotation: [0, 0, 25]' 'Material: FromFile'
         object 'Type: TriangleMesh' "Filepath: $root/objects/lantern.obj" 'Position: [0, -0.8, 0]' 'Rotation: [0, 0, 25]' "$clay"; } | key from_file

@@ -85,7 +85,7 @@ pub enum BvhQuality {
 }
 
 impl Precision {
-    /// All of them, the default first.
+    /// The default first.
     pub const ALL: [Precision; 3] = [Precision::Exact, Precision::Robust, Precision::Fast];
 
     /// The name on the command line and in pictures.
@@ -99,6 +99,9 @@ impl Precision {
 }
 
 impl Isa {
+    /// The smallest first; each has the instructions of those before.
+    pub const ALL: [Isa; 3] = [Isa::Sse2, Isa::Avx2, Isa::Avx512];
+
     /// The name on the command line and in pictures.
     pub const fn name(self) -> &'static str {
         match self {
@@ -110,6 +113,9 @@ impl Isa {
 }
 
 impl BvhQuality {
+    /// The soonest built first.
+    pub const ALL: [BvhQuality; 3] = [BvhQuality::Fast, BvhQuality::Default, BvhQuality::Quality];
+
     /// The name on the command line and in pictures.
     pub const fn name(self) -> &'static str {
         match self {

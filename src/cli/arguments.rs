@@ -15,7 +15,6 @@ pub(super) use diff::DiffArguments;
 pub(super) use farm::{FarmArguments, FarmCommand};
 pub(super) use merge::MergeArguments;
 pub(super) use tradeoff::{TradeoffArguments, TradeoffJob};
-pub(super) use values::{ACCELS, BVHS, ISAS, PRECISIONS, name_of};
 
 use crate::accel::{BvhQuality, Isa, Precision};
 use crate::error::Error;
@@ -32,10 +31,7 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 use std::time::Duration;
-use values::{
-    AOVS, DEPTHS, SAMPLERS, SHELLS, SWITCH, choice, chunks, crop, part, positive, stops, time, whole,
-    whole_or_none,
-};
+use values::{choice, chunks, crop, part, positive, shell, stops, switch, time, whole, whole_or_none};
 
 /// How often checkpoints are written, unless set otherwise.
 pub(super) const EVERY: Duration = Duration::from_secs(60);
@@ -125,7 +121,7 @@ pub(super) enum Command {
     #[command(override_usage = "pathtracer completions bash|zsh|fish")]
     Completions {
         /// The shell
-        #[arg(value_name = "SHELL", value_parser = choice(&SHELLS))]
+        #[arg(value_name = "SHELL", value_parser = shell())]
         shell: Shell,
     },
     /// Print the page of the manual, for man -l
@@ -159,16 +155,16 @@ pub(super) struct RenderArguments {
     extra: Vec<OsString>,
 
     /// What finds hits [default: embree where compiled in]
-    #[arg(long, value_name = "NAME", value_parser = choice(&ACCELS))]
+    #[arg(long, value_name = "NAME", value_parser = choice(&AccelKind::ALL, AccelKind::name))]
     accel: Option<AccelKind>,
     /// How hits of triangles are found [default: exact]
-    #[arg(long, value_name = "NAME", value_parser = choice(&PRECISIONS))]
+    #[arg(long, value_name = "NAME", value_parser = choice(&Precision::ALL, Precision::name))]
     precision: Option<Precision>,
     /// Most instructions to use [default: the machine's best]
-    #[arg(long, value_name = "NAME", value_parser = choice(&ISAS))]
+    #[arg(long, value_name = "NAME", value_parser = choice(&Isa::ALL, Isa::name))]
     isa: Option<Isa>,
     /// How much time goes into the tree over the triangles [default: default]
-    #[arg(long, value_name = "NAME", value_parser = choice(&BVHS))]
+    #[arg(long, value_name = "NAME", value_parser = choice(&BvhQuality::ALL, BvhQuality::name))]
     bvh: Option<BvhQuality>,
     /// Threads [default: one a core]
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole(MAX_THREADS as u64))]
@@ -180,10 +176,10 @@ pub(super) struct RenderArguments {
     #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 0)]
     seed: u64,
     /// Where random numbers come from [default: sobol]
-    #[arg(long, value_name = "NAME", value_parser = choice(&SAMPLERS))]
+    #[arg(long, value_name = "NAME", value_parser = choice(&SamplerKind::ALL, SamplerKind::name))]
     sampler: Option<SamplerKind>,
     /// Whether lights are sampled [default: on]
-    #[arg(long, value_name = "on|off", value_parser = choice(&SWITCH))]
+    #[arg(long, value_name = "on|off", value_parser = switch())]
     light_sampling: Option<bool>,
     /// Most that a component of a sample's radiance may be; takes light away and says how much [default: no limit]
     #[arg(long, value_name = "X", allow_negative_numbers = true, value_parser = positive)]
@@ -203,7 +199,7 @@ pub(super) struct RenderArguments {
     scramble_length: Option<u32>,
     /// Whether the error of the picture is estimated from a few pixels where its samples alone can't tell it, for about 3 %
     /// more time [default: on]
-    #[arg(long, value_name = "on|off", value_parser = choice(&SWITCH))]
+    #[arg(long, value_name = "on|off", value_parser = switch())]
     error_estimate: Option<bool>,
     /// Keep what it takes to go on with the render in this file
     #[arg(long, value_name = "FILE")]
@@ -228,11 +224,11 @@ pub(super) struct RenderArguments {
     exposure: f64,
     /// What a value of the picture takes: 8 or 16 bits of sRGB (.png, .tif), half or float, linear (.exr; .tif: float)
     /// [default: 8, of .exr and .hdr float]
-    #[arg(long, value_name = "NAME", value_parser = choice(&DEPTHS))]
+    #[arg(long, value_name = "NAME", value_parser = choice(&Depth::ALL, Depth::name))]
     depth: Option<Depth>,
     /// Channels of an EXR beside the light: albedo, normal, depth, position, object, samples, error;
     /// several with commas
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = choice(&AOVS))]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = choice(&Aov::ALL, Aov::name))]
     aov: Vec<Aov>,
     /// Remove noise by Open Image Denoise; the noisy picture is kept beside, as NAME.noisy
     #[arg(long)]
@@ -322,44 +318,8 @@ impl RenderArguments {
             let message = format!("unexpected argument '{}' after IMAGE", extra.to_string_lossy());
             return Err(usage(&message).into());
         }
-        let given = self.given();
-        let (Some(scene), Some(width), Some(height), Some(samples), Some(bounces), Some(image)) =
-            (self.scene, self.width, self.height, self.samples, self.bounces, self.image)
-        else {
-            let missing: Vec<&str> = POSITIONALS.into_iter().skip(given).collect();
-            let message = match given {
-                0 => "nothing to render".to_owned(),
-                _ => format!("missing {}", missing.join(" ")),
-            };
-            return Err(usage(&message).into());
-        };
-        if samples == 0 && self.noise.is_none() && self.time.is_none() {
-            let message = "0 samples, which means no limit, can only be given with --noise or --time";
-            return Err(usage(message).into());
-        }
-        let errors = self.error_bars.is_some() || self.aov.contains(&Aov::Error);
-        let defaults =
-            Settings::new(u32::try_from(width)?, u32::try_from(height)?, samples, u32::try_from(bounces)?);
-        let settings = Settings {
-            accel: self.accel.unwrap_or(defaults.accel),
-            precision: self.precision.unwrap_or(defaults.precision),
-            isa: self.isa,
-            bvh: self.bvh.unwrap_or(defaults.bvh),
-            threads: self.threads.map(usize::try_from).transpose()?,
-            tile: self.tile.map(u32::try_from).transpose()?,
-            seed: self.seed,
-            sampler: self.sampler.unwrap_or(defaults.sampler),
-            light_sampling: self.light_sampling.unwrap_or(defaults.light_sampling),
-            clamp: self.clamp,
-            error_estimate: self.error_estimate.unwrap_or(true),
-            scramble_length: self.scramble_length.or(errors.then_some(SHORT_SCRAMBLE_LENGTH)),
-            noise: self.noise,
-            time: self.time,
-            features: self.denoise || self.aov.iter().any(|aov| matches!(aov, Aov::Feature(_))),
-            region: self.part.or(self.crop).unwrap_or_default(),
-            chunks: self.chunks.map(|[start, end]| start..end),
-            ..defaults
-        };
+        let (scene, numbers, image) = self.positionals()?;
+        let settings = self.settings(numbers)?;
         let RenderArguments { exposure, depth, aov, denoise, stamp, quiet, json, error_bars, .. } = self;
         let RenderArguments { checkpoint, every, resume, progress, .. } = self;
         Ok(Job {
@@ -378,6 +338,52 @@ impl RenderArguments {
             quiet,
             json,
             openjd: progress.is_some(),
+        })
+    }
+
+    /// SCENE, the four numbers and IMAGE; an error says which are missing.
+    fn positionals(&self) -> Result<(PathBuf, [u64; 4], PathBuf), Error> {
+        let RenderArguments { scene, width, height, samples, bounces, image, .. } = self;
+        if let (Some(scene), &Some(width), &Some(height), &Some(samples), &Some(bounces), Some(image)) =
+            (scene, width, height, samples, bounces, image)
+        {
+            return Ok((scene.clone(), [width, height, samples, bounces], image.clone()));
+        }
+        let given = self.given();
+        let missing: Vec<&str> = POSITIONALS.into_iter().skip(given).collect();
+        Err(usage(&match given {
+            0 => "nothing to render".to_owned(),
+            _ => format!("missing {}", missing.join(" ")),
+        }))
+    }
+
+    fn settings(&self, [width, height, samples, bounces]: [u64; 4]) -> anyhow::Result<Settings> {
+        if samples == 0 && self.noise.is_none() && self.time.is_none() {
+            let message = "0 samples, which means no limit, can only be given with --noise or --time";
+            return Err(usage(message).into());
+        }
+        let errors = self.error_bars.is_some() || self.aov.contains(&Aov::Error);
+        let defaults =
+            Settings::new(u32::try_from(width)?, u32::try_from(height)?, samples, u32::try_from(bounces)?);
+        Ok(Settings {
+            accel: self.accel.unwrap_or(defaults.accel),
+            precision: self.precision.unwrap_or(defaults.precision),
+            isa: self.isa,
+            bvh: self.bvh.unwrap_or(defaults.bvh),
+            threads: self.threads.map(usize::try_from).transpose()?,
+            tile: self.tile.map(u32::try_from).transpose()?,
+            seed: self.seed,
+            sampler: self.sampler.unwrap_or(defaults.sampler),
+            light_sampling: self.light_sampling.unwrap_or(defaults.light_sampling),
+            clamp: self.clamp,
+            error_estimate: self.error_estimate.unwrap_or(true),
+            scramble_length: self.scramble_length.or(errors.then_some(SHORT_SCRAMBLE_LENGTH)),
+            noise: self.noise,
+            time: self.time,
+            features: self.denoise || self.aov.iter().any(|aov| matches!(aov, Aov::Feature(_))),
+            region: self.part.or(self.crop).unwrap_or_default(),
+            chunks: self.chunks.map(|[start, end]| start..end),
+            ..defaults
         })
     }
 

@@ -1,6 +1,7 @@
 //! `--json`: one JSON object a line on stdout.
 
-use super::arguments::{ACCELS, BVHS, ISAS, Job, PRECISIONS, name_of};
+use super::arguments::Job;
+use crate::accel::Isa;
 use crate::error::{Diagnostic, Error, Severity};
 use crate::film::PictureError;
 use crate::render::{Ended, Progress, Rendered};
@@ -50,10 +51,10 @@ pub(super) struct JobRecord {
     height: u32,
     samples: u64,
     bounces: u32,
-    accel: Option<&'static str>,
-    precision: Option<&'static str>,
+    accel: &'static str,
+    precision: &'static str,
     isa: Option<&'static str>,
-    bvh: Option<&'static str>,
+    bvh: &'static str,
     threads: usize,
     tile: u32,
     chunk: u32,
@@ -161,10 +162,10 @@ impl JobRecord {
             height: settings.height,
             samples: settings.samples,
             bounces: settings.bounces,
-            accel: name_of(&ACCELS, &settings.accel),
-            precision: name_of(&PRECISIONS, &settings.precision),
-            isa: settings.isa.and_then(|isa| name_of(&ISAS, &isa)),
-            bvh: name_of(&BVHS, &settings.bvh),
+            accel: settings.accel.name(),
+            precision: settings.precision.name(),
+            isa: settings.isa.map(Isa::name),
+            bvh: settings.bvh.name(),
             threads: settings.thread_count(),
             tile: settings.tile_side(),
             chunk: settings.chunk,

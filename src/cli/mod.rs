@@ -35,6 +35,9 @@ use std::path::Path;
 pub type Window = dyn Fn(Option<&Path>) -> Result<()>;
 
 /// Runs the command that the arguments ask for, the program's name first, and returns the exit code.
+///
+/// # Errors
+/// Whatever the command fails with; `main` prints it and chooses the exit code.
 pub fn run(arguments: &[OsString], window: &Window) -> anyhow::Result<u8> {
     let Arguments { command, render } = Arguments::parse(arguments)?;
     match command {

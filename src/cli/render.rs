@@ -13,7 +13,7 @@ use crate::film::file::FilePlace;
 use crate::output::{self, Aov, Provenance, Target, same_file};
 use crate::picture::{Destination, Format};
 use crate::render::{Ended, Estimate, Origin, Recipe, Rendered, View, in_pool, resume};
-use crate::scene;
+use crate::scene::{self, desc::CameraDesc};
 use crate::study::rounds::timed;
 use crate::world::World;
 use std::path::{Path, PathBuf};
@@ -94,76 +94,81 @@ pub(super) fn run(job: &Job) -> anyhow::Result<u8> {
     partial.extend(checkpoints.iter().map(|place| place.partial_path().to_path_buf()));
     interrupt::listen(partial)?;
 
-    let (scene, load) = timed(|| in_pool(&job.settings, || scene::load(&job.scene)));
-    let scene = scene?;
-    if let Some(path) = scene.files.iter().find(|path| output.replaces(path)) {
-        let why = format!("{} belongs to the scene: choose another name for what is written", path.display());
-        return Err(Error::Usage(why).into());
-    }
-    if !job.quiet {
-        scene.warnings.iter().for_each(say);
-        say(describe::scene(&scene.desc));
-    }
-    Estimate::new(&scene.desc, &job.settings, job.denoise).check()?;
-    let (world, compile) = timed(|| in_pool(&job.settings, || World::compile(&scene.desc)));
-    let world = world?;
-    let guards = in_pool(&job.settings, || world.guards(&scene.desc, job.settings.width))?;
-    if !job.quiet {
-        guards.iter().for_each(say);
-    }
-    // The world has all it needs of the meshes.
-    let (camera, digest) = (scene.desc.camera.clone(), scene.digest);
-    drop(scene);
-    let recipe = Recipe::new(&job.scene, digest, &job.settings)?;
-    let view = View::new(&world, &camera, job.settings.width, job.settings.height);
-    let origin = Origin { recipe, view, brightest: world.brightest() };
-    let mut state = saving::resumed(job, &origin)?;
-    let mut done = None;
-    if let (Some(place), None) = (output.part(), &job.resume) {
-        match saving::existing_part(job, place, &origin)? {
-            Found::Nothing => {}
-            Found::Begun(begun) => state = Some(*begun),
-            Found::Done(rendered) => done = Some(rendered),
-        }
-    }
-    if let (Some(state), false) = (&state, job.quiet) {
+    let Subject { world, camera, origin, seconds } = &Subject::read(job, &output)?;
+    let found = saving::found(job, output.part(), origin)?;
+    if let (Found::Begun(state), false) = (&found, job.quiet) {
         say(format_args!("going on after {} samples", state.samples()));
     }
     if job.json {
         event::emit(&Event::Start { job: JobRecord::new(job), requires: &world.requires });
     }
-    if let Some(rendered) = done {
-        say(format_args!("{} is there already, and complete", job.image.display()));
-        let seconds = Seconds { load, build: compile, ..Seconds::default() };
-        return Ok(end(job, &world, &rendered, seconds));
-    }
+    let state = match found {
+        Found::Nothing => None,
+        Found::Begun(state) => Some(*state),
+        Found::Done(rendered) => {
+            say(format_args!("{} is there already, and complete", job.image.display()));
+            return Ok(end(job, world, &rendered, *seconds));
+        }
+    };
 
     let reporter = Reporter::new(job);
-    let keeper = Keeper::new(&reporter, checkpoints.as_ref(), &origin, job.every);
+    let keeper = Keeper::new(&reporter, checkpoints.as_ref(), origin, job.every);
     interrupt::ask_first();
-    let rendered = resume(&world, &camera, &job.settings, &keeper, state);
+    let rendered = resume(world, camera, &job.settings, &keeper, state);
     reporter.finish();
     let rendered = rendered?;
-    let cancelled = rendered.ended == Ended::Cancelled;
     if rendered.film.samples() == 0 {
         return Err(Error::Interrupted.into());
     }
-    let build = compile + rendered.build_seconds;
-    let seconds = Seconds { load, build, render: rendered.render_seconds, write: 0.0 };
-    if cancelled && output.part().is_some() {
+    let build = seconds.build + rendered.build_seconds;
+    let seconds = Seconds { build, render: rendered.render_seconds, ..*seconds };
+    if rendered.ended == Ended::Cancelled && output.part().is_some() {
         unfinished(job, &keeper, &rendered)?;
-        return Ok(end(job, &world, &rendered, seconds));
+        return Ok(end(job, world, &rendered, seconds));
     }
-    let (written, write) = timed(|| output.write(job, &origin, &rendered));
-    written.map_err(|error| saving::rescue(job, &origin, &rendered, error))?;
-
-    if job.aov.contains(&Aov::Error) && Aov::Error.channels(&rendered).is_empty() {
-        say("warning: the picture has no channel of errors: they need 16 samples");
-    }
-
+    let (written, write) = timed(|| output.write(job, origin, &rendered));
+    written.map_err(|error| saving::rescue(job, origin, &rendered, error))?;
     let seconds = Seconds { write, ..seconds };
     conclude(job, &rendered, seconds);
-    Ok(end(job, &world, &rendered, seconds))
+    Ok(end(job, world, &rendered, seconds))
+}
+
+/// What is rendered, ready for it.
+struct Subject {
+    world: World,
+    camera: CameraDesc,
+    origin: Origin,
+    /// What it took to get here.
+    seconds: Seconds,
+}
+
+impl Subject {
+    /// Reads and compiles the scene of a job, and says what is to be known about it.
+    fn read(job: &Job, output: &Output) -> Result<Subject> {
+        let (scene, load) = timed(|| in_pool(&job.settings, || scene::load(&job.scene)));
+        let scene = scene?;
+        if let Some(path) = scene.files.iter().find(|path| output.replaces(path)) {
+            let path = path.display();
+            return Err(Error::Usage(format!("{path} belongs to the scene: choose another name for what is written")));
+        }
+        if !job.quiet {
+            scene.warnings.iter().for_each(say);
+            say(describe::scene(&scene.desc));
+        }
+        Estimate::new(&scene.desc, &job.settings, job.denoise).check()?;
+        let (world, build) = timed(|| in_pool(&job.settings, || World::compile(&scene.desc)));
+        let world = world?;
+        let guards = in_pool(&job.settings, || world.guards(&scene.desc, job.settings.width))?;
+        if !job.quiet {
+            guards.iter().for_each(say);
+        }
+        // The description ends here with its meshes: the world has all it needs of them.
+        let (camera, digest) = (scene.desc.camera, scene.digest);
+        let recipe = Recipe::new(&job.scene, digest, &job.settings)?;
+        let view = View::new(&world, &camera, job.settings.width, job.settings.height);
+        let origin = Origin { recipe, view, brightest: world.brightest() };
+        Ok(Subject { world, camera, origin, seconds: Seconds { load, build, ..Seconds::default() } })
+    }
 }
 
 /// Tells programs how it ended; the exit code.
@@ -233,6 +238,9 @@ pub(super) fn error_bars(path: &Path) -> Result<Destination> {
 
 /// Says how it ended.
 fn conclude(job: &Job, rendered: &Rendered, seconds: Seconds) {
+    if job.aov.contains(&Aov::Error) && Aov::Error.channels(rendered).is_empty() {
+        say("warning: the picture has no channel of errors: they need 16 samples");
+    }
     findings::report(job, rendered);
     if job.quiet {
         return;

@@ -8,6 +8,7 @@ use crate::film::file::{FilePlace, Reader};
 use crate::output::{FILM_EXTENSION, Rescue};
 use crate::render::{FileKind, FilmFile, OF_A_TASK, Origin, Rendered, State};
 use std::fs;
+use std::path::PathBuf;
 
 /// Whether the job makes a part of a picture, not a picture.
 pub(super) fn is_part(job: &Job) -> bool {
@@ -50,7 +51,7 @@ pub(super) fn checkpoint_place(job: &Job, part: Option<&FilePlace>) -> Result<Op
     FilePlace::new(path).map(Some)
 }
 
-/// What is there of a part that a task makes.
+/// What there is of a render before it begins.
 pub(super) enum Found {
     /// Nothing that helps.
     Nothing,
@@ -60,11 +61,23 @@ pub(super) enum Found {
     Begun(Box<State>),
 }
 
+/// What a job is told to go on with, else what an earlier task left of its part.
+///
+/// # Errors
+/// A file of another render; one to go on with that can't be read.
+pub(super) fn found(job: &Job, part: Option<&FilePlace>, origin: &Origin) -> Result<Found> {
+    match (&job.resume, part) {
+        (Some(path), _) => resumed(job, path, origin),
+        (None, Some(place)) => existing_part(job, place, origin),
+        (None, None) => Ok(Found::Nothing),
+    }
+}
+
 /// Looks for the part, or for what an interrupted task left of it.
 ///
 /// # Errors
 /// Anything but a damaged film file, which helps nobody: a part of another render, any other file.
-pub(super) fn existing_part(job: &Job, place: &FilePlace, origin: &Origin) -> Result<Found> {
+fn existing_part(job: &Job, place: &FilePlace, origin: &Origin) -> Result<Found> {
     if !place.path().exists() {
         return Ok(Found::Nothing);
     }
@@ -93,14 +106,14 @@ pub(super) fn existing_part(job: &Job, place: &FilePlace, origin: &Origin) -> Re
     }
 }
 
-/// Where the render of a job goes on, if it is to be resumed.
-pub(super) fn resumed(job: &Job, origin: &Origin) -> Result<Option<State>> {
-    let Some(path) = &job.resume else { return Ok(None) };
+/// Where the render of a job goes on that is to be resumed.
+fn resumed(job: &Job, path: &PathBuf, origin: &Origin) -> Result<Found> {
     // A task that is started for the first time has the same command line as one that is started again.
     if !path.exists() && job.checkpoint.as_ref() == Some(path) {
-        return Ok(None);
+        return Ok(Found::Nothing);
     }
-    FilmFile::open(path)?.state(&job.settings, &origin.recipe).map(Some)
+    let state = FilmFile::open(path)?.state(&job.settings, &origin.recipe)?;
+    Ok(Found::Begun(Box::new(state)))
 }
 
 /// Keeps the film of a picture that could not be written, in the first place that takes it. Says where, and how the picture

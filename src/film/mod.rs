@@ -110,8 +110,10 @@ impl Film {
         std::array::from_fn(|scramble| self.nodes.iter().map(|node| node.sums.counts[scramble]).sum())
     }
 
-    /// Adds the sums of one chunk, of at most the chunk's samples. Chunks may come in any order. An error if the film has
-    /// this chunk already or the sizes differ.
+    /// Adds the sums of one chunk, of at most the chunk's samples. Chunks may come in any order.
+    ///
+    /// # Errors
+    /// The film has this chunk already; sums of another size, or of more samples than a chunk has.
     pub fn add(&mut self, chunk: u64, sums: Sums) -> Result<()> {
         if sums.radiance.len() != self.pixels() || sums.samples > self.chunk {
             return Err(Error::Usage("a chunk of another size can't be added to this film".into()));
@@ -119,7 +121,10 @@ impl Film {
         self.insert(Node { first: chunk, chunks: 1, sums })
     }
 
-    /// Adds the chunks of another part of the same render. An error if the sizes differ or a chunk is in both.
+    /// Adds the chunks of another part of the same render.
+    ///
+    /// # Errors
+    /// The sizes differ, or a chunk is in both.
     pub fn merge(&mut self, other: Film) -> Result<()> {
         if (&self.frame, self.chunk) != (&other.frame, other.chunk) {
             return Err(Error::Usage("films of different sizes can't be merged".into()));

@@ -36,6 +36,9 @@ pub enum Region {
 
 impl Region {
     /// Whether it is a region of a picture of this size; `whole_blocks` asks for blocks of 16 x 16 pixels that are not cut.
+    ///
+    /// # Errors
+    /// A part or a crop that the picture does not have; one that cuts blocks where they must be whole.
     pub fn check(self, width: u32, height: u32, whole_blocks: bool) -> Result<()> {
         let blocks = u64::from(width.div_ceil(BLOCK)) * u64::from(height.div_ceil(BLOCK));
         let why = match self {

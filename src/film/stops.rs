@@ -24,7 +24,9 @@ pub struct Stops {
 
 impl Stops {
     /// `halves` has an entry a block, row by row from the top left: how far in the order of [`Scrambles`] each half went.
-    /// An error if there are not as many blocks as a picture of this size has.
+    ///
+    /// # Errors
+    /// There are not as many blocks as a picture of this size has.
     pub fn new(width: u32, height: u32, scrambles: Scrambles, halves: Vec<[u64; HALVES]>) -> Result<Stops> {
         let (columns, rows) = (width.div_ceil(BLOCK) as usize, height.div_ceil(BLOCK) as usize);
         if halves.len() != columns * rows {

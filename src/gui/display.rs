@@ -28,7 +28,7 @@ pub enum View {
 }
 
 impl View {
-    /// All of them.
+    /// In the order of the keys 1 to 6.
     pub const ALL: [View; 6] =
         [View::Picture, View::Albedo, View::Normals, View::Depth, View::Error, View::Samples];
 

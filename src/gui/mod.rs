@@ -5,8 +5,8 @@
 //! document (the file) -> studio (the state, the commands) -> session (renders) -> display (colours) -> app, panels (widgets)
 //! ```
 //!
-//! Nothing here waits for a render: files are read, renders run and colours are made on threads of their own, and the newest
-//! request wins.
+//! While it is open no frame waits for a render: files are read, renders run and colours are made on threads of their own, and
+//! the newest request wins. Only closing waits, for the render to stop and for a picture that is being written.
 
 mod app;
 pub mod camera_control;

@@ -29,7 +29,7 @@ pub enum PreviewSize {
 }
 
 impl PreviewSize {
-    /// All of them.
+    /// In the order of the list in the window.
     pub const ALL: [PreviewSize; 3] = [PreviewSize::Fit, PreviewSize::Half, PreviewSize::Full];
 
     /// The name in the window.
@@ -187,7 +187,7 @@ pub enum Theme {
 }
 
 impl Theme {
-    /// All of them.
+    /// In the order of the list in the window.
     pub const ALL: [Theme; 3] = [Theme::System, Theme::Dark, Theme::Light];
 
     /// The name in the window and in the file.

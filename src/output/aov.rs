@@ -15,7 +15,7 @@ pub enum Aov {
 }
 
 impl Aov {
-    /// All of them.
+    /// In the order in which they are listed to users.
     pub const ALL: [Aov; 7] = [
         Aov::Feature(FeatureKind::Albedo),
         Aov::Feature(FeatureKind::Normal),

@@ -33,8 +33,11 @@ pub struct Target {
 }
 
 impl Target {
-    /// Whatever can be known to fail fails here: an unknown extension, a folder that is missing or read-only, channels that
-    /// the format does not take, a denoiser that is not there.
+    /// Whatever can be known to fail fails here, before the render.
+    ///
+    /// # Errors
+    /// An unknown extension, a folder that is missing or read-only, channels or a depth that the format does not take, a denoiser
+    /// that is not there.
     pub fn new(wanted: Wanted) -> Result<Target> {
         let picture = place(&wanted.image, wanted.depth)?;
         if !wanted.aov.is_empty() && picture.format() != Format::Exr {
@@ -65,7 +68,10 @@ impl Target {
         [&self.picture].into_iter().chain(noisy).any(|place| same_file(place.path(), path))
     }
 
-    /// Writes what was rendered. Errors: files that can't be written, a denoiser that fails.
+    /// Writes what was rendered.
+    ///
+    /// # Errors
+    /// Files that can't be written; a denoiser that fails.
     pub fn write(&self, provenance: &Provenance<'_>, rendered: &Rendered) -> Result<()> {
         let light: Vec<f64> = output::channels(&rendered.film).collect();
         let made = |denoiser| Made { provenance, rendered: Some(rendered), denoiser };
@@ -77,7 +83,10 @@ impl Target {
         self.write_to(&self.picture, &clean, &made(Some(denoiser)))
     }
 
-    /// Writes the means of a render that goes on, R G B, row by row. Errors: as [`Target::write`].
+    /// Writes the means of a render that goes on, R G B, row by row.
+    ///
+    /// # Errors
+    /// A file that can't be written.
     pub fn write_light(&self, provenance: &Provenance<'_>, light: &[f64]) -> Result<()> {
         self.write_to(&self.picture, light, &Made { provenance, rendered: None, denoiser: None })
     }

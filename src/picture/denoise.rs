@@ -60,7 +60,10 @@ pub struct Denoiser {
 
 impl Denoiser {
     /// Loads it: from the folder `OIDN_DIR` or its `lib`, from where the loader looks, or from a Python environment that
-    /// has it. An error says how to get it.
+    /// has it.
+    ///
+    /// # Errors
+    /// It was not found, is of another version, or does not start on this processor; the message says how to get it.
     pub fn load() -> Result<Denoiser> {
         let places = places();
         // SAFETY: initialisers of this library need nothing of this program.
@@ -98,6 +101,9 @@ impl Denoiser {
     }
 
     /// The picture without its noise, as the network guesses it.
+    ///
+    /// # Errors
+    /// Planes whose length is not that of the picture; what the library says where it fails, such as too little memory.
     pub fn denoise(&self, noisy: &Noisy<'_>) -> Result<Vec<f32>> {
         let values = 3 * noisy.width as usize * noisy.height as usize;
         let inputs = [(c"color", noisy.color), (c"albedo", noisy.albedo), (c"normal", noisy.normal)];

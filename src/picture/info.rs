@@ -28,8 +28,10 @@ pub struct Info {
 }
 
 impl Info {
-    /// Reads it from the file at `path`. Errors: a file that can't be read or is damaged; a format
-    /// that needs OpenImageIO, without it.
+    /// Reads it from the file at `path`.
+    ///
+    /// # Errors
+    /// A file that can't be read or is damaged; a format that needs OpenImageIO, without it.
     pub fn read(path: &Path) -> Result<Info> {
         let damaged = refused(path);
         let file = BufReader::new(File::open(path).map_err(failed(path))?);

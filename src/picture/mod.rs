@@ -19,12 +19,12 @@ pub use read::{Decoded, byte_values, read};
 pub use srgb::{quantize, quantize_word, srgb_decode, srgb_encode};
 
 use crate::error::{Error, Result};
+use crate::whole_file::WholeFile;
 use ::png::EncodingError;
 pub use half::f16;
 use std::fs::{self, File};
-use std::hash::{BuildHasher, RandomState};
 use std::io::{self, BufWriter, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// The file formats in which pictures are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,61 +54,75 @@ pub enum Depth {
     Float,
 }
 
-/// A format: its name, its extension in the words of OpenImageIO, its depths, of which the first is the default.
-type Row = (Format, &'static str, &'static str, &'static [Depth]);
-
-const FORMATS: [Row; 5] = [
-    (Format::Png, "PNG", "png", &[Depth::Eight, Depth::Sixteen]),
-    (Format::Exr, "EXR", "exr", &[Depth::Float, Depth::Half]),
-    (Format::Tiff, "TIFF", "tif", &[Depth::Eight, Depth::Sixteen, Depth::Float]),
-    (Format::Hdr, "HDR", "hdr", &[Depth::Float]),
-    (Format::Jpeg, "JPEG", "jpg", &[Depth::Eight]),
-];
-
-/// Every extension with its format; the first two need no library.
-const EXTENSIONS: [(&str, Format); 7] = [
-    ("png", Format::Png),
-    ("exr", Format::Exr),
-    ("tif", Format::Tiff),
-    ("tiff", Format::Tiff),
-    ("hdr", Format::Hdr),
-    ("jpg", Format::Jpeg),
-    ("jpeg", Format::Jpeg),
-];
-
 impl Format {
-    /// The format that the extension of `path` asks for. Case does not matter; an error lists what is known.
+    /// In the order in which they are listed to users.
+    pub const ALL: [Format; 5] = [Format::Png, Format::Exr, Format::Tiff, Format::Hdr, Format::Jpeg];
+
+    /// The format that the extension of `path` asks for. Case does not matter.
+    ///
+    /// # Errors
+    /// An extension that is none of those known, which are listed.
     pub fn of(path: &Path) -> Result<Format> {
         let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-        let found = EXTENSIONS.iter().find(|(name, _)| *name == extension);
-        found.map(|&(_, format)| format).ok_or_else(|| {
+        let found = Format::ALL.into_iter().find(|format| format.own_extensions().contains(&&*extension));
+        found.ok_or_else(|| {
             let known = Format::extensions();
             Error::Usage(format!("the picture {} has no known extension; known are {known}", path.display()))
         })
     }
 
-    /// All extensions: `.png, .exr` and so on.
+    /// The extensions of all formats: `.png, .exr` and so on.
     pub fn extensions() -> String {
-        let known: Vec<String> = EXTENSIONS.iter().map(|(name, _)| format!(".{name}")).collect();
-        known.join(", ")
+        let known = Format::ALL.iter().flat_map(|format| format.own_extensions());
+        known.map(|name| format!(".{name}")).collect::<Vec<_>>().join(", ")
     }
 
-    fn row(self) -> &'static Row {
-        FORMATS.iter().find(|row| row.0 == self).unwrap_or(&FORMATS[0])
+    /// Its extensions.
+    const fn own_extensions(self) -> &'static [&'static str] {
+        match self {
+            Format::Png => &["png"],
+            Format::Exr => &["exr"],
+            Format::Tiff => &["tif", "tiff"],
+            Format::Hdr => &["hdr"],
+            Format::Jpeg => &["jpg", "jpeg"],
+        }
     }
 
     /// The name of the format.
-    pub fn name(self) -> &'static str {
-        self.row().1
+    pub const fn name(self) -> &'static str {
+        match self {
+            Format::Png => "PNG",
+            Format::Exr => "EXR",
+            Format::Tiff => "TIFF",
+            Format::Hdr => "HDR",
+            Format::Jpeg => "JPEG",
+        }
     }
 
     /// The depths that it can have, the default first.
-    pub fn depths(self) -> &'static [Depth] {
-        self.row().3
+    pub const fn depths(self) -> &'static [Depth] {
+        match self {
+            Format::Png => &[Depth::Eight, Depth::Sixteen],
+            Format::Exr => &[Depth::Float, Depth::Half],
+            Format::Tiff => &[Depth::Eight, Depth::Sixteen, Depth::Float],
+            Format::Hdr => &[Depth::Float],
+            Format::Jpeg => &[Depth::Eight],
+        }
+    }
+
+    /// Who writes it.
+    const fn writer(self) -> Writer {
+        match self {
+            Format::Png => Writer::Png,
+            Format::Exr => Writer::Exr,
+            Format::Tiff => Writer::Library("tif"),
+            Format::Hdr => Writer::Library("hdr"),
+            Format::Jpeg => Writer::Library("jpg"),
+        }
     }
 
     /// What its files begin with, one of these; none where the format is not read by OpenImageIO.
-    fn beginnings(self) -> &'static [&'static [u8]] {
+    const fn beginnings(self) -> &'static [&'static [u8]] {
         match self {
             // Little and big endian, classic and with offsets of 64 bits.
             Format::Tiff => &[b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"],
@@ -117,15 +131,20 @@ impl Format {
             Format::Png | Format::Exr => &[],
         }
     }
+}
 
-    /// Whether OpenImageIO writes it.
-    fn needs_library(self) -> bool {
-        !matches!(self, Format::Png | Format::Exr)
-    }
+/// What writes a format.
+enum Writer {
+    /// `png`.
+    Png,
+    /// `exr`.
+    Exr,
+    /// OpenImageIO, by the name that it knows the format under.
+    Library(&'static str),
 }
 
 impl Depth {
-    /// All of them.
+    /// The smallest first.
     pub const ALL: [Depth; 4] = [Depth::Eight, Depth::Sixteen, Depth::Half, Depth::Float];
 
     /// The name on the command line and in pictures.
@@ -187,49 +206,32 @@ impl Picture {
 /// A place for a picture that was found to be writable.
 #[derive(Clone, Debug)]
 pub struct Destination {
-    path: PathBuf,
-    partial: PathBuf,
+    file: WholeFile,
     format: Format,
     depth: Depth,
 }
 
-/// The file that is replaced when something is written to `path`. Errors: a folder, something other than a file.
-pub(crate) fn replaced_file(path: &Path) -> io::Result<PathBuf> {
-    match fs::metadata(path) {
-        Ok(found) if found.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
-        Ok(found) if !found.is_file() => Err(io::Error::other("it is not a regular file")),
-        // The file behind a symbolic link is replaced, not the link.
-        Ok(_) => fs::canonicalize(path),
-        Err(_) => Ok(path.to_path_buf()),
-    }
-}
-
-/// A new name beside a file that is to be replaced: short, whatever the file's own is, and different for every file under
-/// way, on all machines that see the folder: 64 random bits.
-pub(crate) fn partial_file(target: &Path) -> PathBuf {
-    // Every one of these states has keys of its own, made from the system's random numbers.
-    let random = RandomState::new().hash_one(std::process::id());
-    target.with_file_name(format!(".pathtracer-{random:016x}.part"))
-}
-
 impl Destination {
     /// Looks whether a picture can be written to `path`, by creating and removing the temporary file beside it. Nothing
-    /// that exists is changed. Errors: an unknown extension; a folder that is missing or read-only; a path that is
-    /// something other than a file.
+    /// that exists is changed.
+    ///
+    /// # Errors
+    /// An unknown extension; a format that needs OpenImageIO, without it; a folder that is missing or read-only; a path that
+    /// is something other than a file.
     pub fn new(path: &Path) -> Result<Destination> {
         let format = Format::of(path)?;
-        if format.needs_library() {
+        if let Writer::Library(_) = format.writer() {
             oiio::check()
                 .map_err(|why| Error::Unavailable(format!("cannot write {}: {why}", path.display())))?;
         }
-        let failed = |source| Error::Io { action: "write the picture".into(), path: path.into(), source };
-        let target = replaced_file(path).map_err(failed)?;
-        let partial = partial_file(&target);
-        drop(Partial::create(&partial).map_err(failed)?);
-        Ok(Destination { path: target, partial, format, depth: format.depths()[0] })
+        let file = WholeFile::new(path, "write the picture")?;
+        Ok(Destination { file, format, depth: format.depths()[0] })
     }
 
-    /// The same place for pixels of another depth. An error if the format can't have it.
+    /// The same place for pixels of another depth.
+    ///
+    /// # Errors
+    /// A depth that the format can't have.
     pub fn with_depth(self, depth: Depth) -> Result<Destination> {
         let depths = self.format.depths();
         if !depths.contains(&depth) {
@@ -247,7 +249,7 @@ impl Destination {
 
     /// The picture's file.
     pub fn path(&self) -> &Path {
-        &self.path
+        self.file.path()
     }
 
     /// The format that the file's extension asks for.
@@ -257,78 +259,79 @@ impl Destination {
 
     /// The file that holds the picture until it is complete, in the same folder.
     pub fn partial_path(&self) -> &Path {
-        &self.partial
+        self.file.partial_path()
     }
 
     /// Writes pixels alone; see [`Destination::write_picture`].
+    ///
+    /// # Errors
+    /// As there.
     pub fn write(&self, width: u32, height: u32, pixels: &Pixels) -> Result<()> {
-        self.write_all(width, height, pixels, &[], &Metadata::default())
+        self.write_all((width, height), pixels, &[], &Metadata::default())
     }
 
-    /// Writes the whole picture under a temporary name, brings it to the disk and then renames it. After an error the
-    /// file at the path is as before and no temporary file is left.
+    /// Writes the whole picture under a temporary name, brings it to the disk and then renames it.
+    ///
+    /// # Errors
+    /// A disk that is full or fails, a folder that is gone; a picture that the format refuses. The file at the path is as
+    /// before then, and no temporary file is left.
     pub fn write_picture(&self, picture: &Picture) -> Result<()> {
         let Picture { width, height, pixels, channels, metadata } = picture;
-        self.write_all(*width, *height, pixels, channels, metadata)
+        self.write_all((*width, *height), pixels, channels, metadata)
     }
 
     fn write_all(
         &self,
-        width: u32,
-        height: u32,
+        size: (u32, u32),
         pixels: &Pixels,
         channels: &[Channel],
         metadata: &Metadata,
     ) -> Result<()> {
-        let failed =
-            |source| Error::Io { action: "write the picture".into(), path: self.path.clone(), source };
-        let partial = Partial::create(&self.partial).map_err(failed)?;
-        let refused =
-            |why: String| Error::Picture(format!("cannot write the picture {}: {why}", self.path.display()));
-        if self.format.needs_library() {
-            oiio::write(&self.partial, self.format.row().2, (width, height), pixels, metadata)
-                .map_err(refused)?;
-            if self.format == Format::Hdr {
-                let bytes = fs::read(&self.partial).map_err(failed)?;
-                fs::write(&self.partial, hdr::with_metadata(&bytes, metadata)).map_err(failed)?;
+        let failed = |source| self.file.failed(source);
+        self.file.write(|file| match self.format.writer() {
+            Writer::Png => {
+                buffered(file, |writer| png::encode(writer, size, pixels, metadata)).map_err(|error| {
+                    match error {
+                        EncodingError::IoError(source) => failed(source),
+                        other => self.refused(&other.to_string()),
+                    }
+                })
             }
-            return partial.rename_to(&self.path).map_err(failed);
+            Writer::Exr => {
+                buffered(file, |writer| exr::encode(writer, size, pixels, channels, metadata)).map_err(failed)
+            }
+            Writer::Library(name) => self.write_by_library(name, size, pixels, metadata),
+        })
+    }
+
+    /// Fills the temporary file.
+    fn write_by_library(
+        &self,
+        name: &str,
+        size: (u32, u32),
+        pixels: &Pixels,
+        metadata: &Metadata,
+    ) -> Result<()> {
+        let partial = self.partial_path();
+        oiio::write(partial, name, size, pixels, metadata).map_err(|why| self.refused(&why))?;
+        if self.format != Format::Hdr {
+            return Ok(());
         }
-        let mut writer = BufWriter::with_capacity(1 << 20, &partial.file);
-        let size = (width, height);
-        match self.format {
-            Format::Png => png::encode(&mut writer, size, pixels, metadata).map_err(|error| match error {
-                EncodingError::IoError(source) => failed(source),
-                other => refused(other.to_string()),
-            }),
-            _ => exr::encode(&mut writer, size, pixels, channels, metadata).map_err(failed),
-        }?;
-        writer.flush().map_err(failed)?;
-        drop(writer);
-        partial.rename_to(&self.path).map_err(failed)
+        let with_metadata = |bytes: Vec<u8>| fs::write(partial, hdr::with_metadata(&bytes, metadata));
+        fs::read(partial).and_then(with_metadata).map_err(|source| self.file.failed(source))
+    }
+
+    fn refused(&self, why: &str) -> Error {
+        Error::Picture(format!("cannot write the picture {}: {why}", self.path().display()))
     }
 }
 
-/// A temporary file that is removed unless it got its final name.
-struct Partial<'p> {
-    path: &'p Path,
-    file: File,
-}
-
-impl<'p> Partial<'p> {
-    fn create(path: &'p Path) -> io::Result<Partial<'p>> {
-        Ok(Partial { path, file: File::create(path)? })
-    }
-
-    fn rename_to(self, path: &Path) -> io::Result<()> {
-        self.file.sync_all()?;
-        fs::rename(self.path, path)
-    }
-}
-
-impl Drop for Partial<'_> {
-    fn drop(&mut self) {
-        // After the rename there is nothing by this name; an error has been reported already.
-        let _ = fs::remove_file(self.path);
-    }
+/// Lets `encode` write to a file in large pieces.
+fn buffered<E: From<io::Error>>(
+    file: &File,
+    encode: impl FnOnce(&mut BufWriter<&File>) -> std::result::Result<(), E>,
+) -> std::result::Result<(), E> {
+    let mut writer = BufWriter::with_capacity(1 << 20, file);
+    encode(&mut writer)?;
+    Ok(writer.flush()?)
 }

@@ -26,8 +26,10 @@ const MOST_BYTES: u64 = 8 << 30;
 /// The longest side.
 const MOST_SIDE: u32 = 1 << 20;
 
-/// Reads the picture at `path`. Errors: a file that can't be read, is damaged, has no pixels or is too large; a
-/// format that needs OpenImageIO, without it.
+/// Reads the picture at `path`.
+///
+/// # Errors
+/// A file that can't be read, is damaged, has no pixels or is too large; a format that needs OpenImageIO, without it.
 pub fn read(path: &Path) -> Result<Decoded> {
     let (failed, refused) = (failed(path), refused(path));
     let file = BufReader::new(File::open(path).map_err(&failed)?);

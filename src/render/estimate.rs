@@ -60,11 +60,17 @@ impl Estimate {
     }
 
     /// Whether it fits into the memory that is free now; passes where the system does not say.
+    ///
+    /// # Errors
+    /// It does not; as [`Estimate::check_against`].
     pub fn check(&self) -> Result<()> {
         available_bytes().map_or(Ok(()), |available| self.check_against(available))
     }
 
-    /// Whether it fits into so many bytes. The error names what is large, and what would make it smaller.
+    /// Whether it fits into so many bytes.
+    ///
+    /// # Errors
+    /// It does not; what is large is named, and what would make it smaller.
     pub fn check_against(&self, available: u64) -> Result<()> {
         if self.bytes() <= available {
             return Ok(());

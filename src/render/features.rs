@@ -36,7 +36,7 @@ pub enum FeatureKind {
 pub const FAR: f32 = 1e10;
 
 impl FeatureKind {
-    /// All of them.
+    /// In the order in which they are listed to users.
     pub const ALL: [FeatureKind; 5] = [
         FeatureKind::Albedo,
         FeatureKind::Normal,

@@ -31,7 +31,10 @@ enum Built<'g> {
 }
 
 impl<'g> Prepared<'g> {
-    /// Builds what `settings` ask for. Errors: settings that can't be, an accelerator that can't be built.
+    /// Builds what `settings` ask for.
+    ///
+    /// # Errors
+    /// Settings that can't be; an accelerator that can't be built, such as for want of memory.
     pub fn build(geometry: &'g Geometry, settings: &Settings) -> Result<Prepared<'g>> {
         settings.check()?;
         in_pool(settings, || Prepared::build_here(geometry, settings))
@@ -46,7 +49,7 @@ impl<'g> Prepared<'g> {
             #[cfg(feature = "embree")]
             AccelKind::Embree => Built::Embree(Embree::build(geometry, &options)?),
             #[cfg(not(feature = "embree"))]
-            AccelKind::Embree => return Err(super::no_embree()),
+            AccelKind::Embree => return Err(AccelKind::Embree.missing()),
             AccelKind::Native => Built::Native(Bvh::build(geometry, &options)?),
         };
         let build_seconds = start.elapsed().as_secs_f64();
@@ -60,6 +63,9 @@ impl<'g> Prepared<'g> {
     }
 
     /// As [`render`](super::render()). The world's shapes must be those of the accelerator: see [`Prepared::fits`].
+    ///
+    /// # Errors
+    /// Settings that can't be; threads that can't be started; a bug met on the way.
     pub fn render(
         &self,
         world: &World,
@@ -91,6 +97,9 @@ impl<'g> Prepared<'g> {
 
     /// Sees the first sample of every pixel without its light, some rows at once from the top, each of which `take` gets.
     /// Whether it got all of them: not if it is cancelled.
+    ///
+    /// # Errors
+    /// As [`Prepared::render`].
     pub fn look(
         &self,
         world: &World,

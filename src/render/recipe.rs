@@ -63,6 +63,9 @@ pub(crate) const OF_A_TASK: [&str; 2] = ["scene", "scramble_length"];
 
 impl Recipe {
     /// Of a render of the scene in the file `scene`.
+    ///
+    /// # Errors
+    /// An instruction set that the machine lacks, where it decides about bits.
     pub fn new(scene: &Path, digest: Digest, settings: &Settings) -> Result<Recipe> {
         let accelerator_matters = settings.precision != Precision::Exact;
         let embree_decides = accelerator_matters && settings.accel == AccelKind::Embree;

@@ -79,6 +79,9 @@ impl Snapshot<'_> {
     }
 
     /// Writes a checkpoint.
+    ///
+    /// # Errors
+    /// As [`FilePlace::write`].
     pub fn write(&self, place: &FilePlace, origin: &Origin) -> Result<()> {
         let header = Header {
             kind: FileKind::Checkpoint,
@@ -108,6 +111,9 @@ impl Snapshot<'_> {
 
 impl Rendered {
     /// Writes all that was rendered as a part, from which `merge` makes the picture.
+    ///
+    /// # Errors
+    /// As [`FilePlace::write`].
     pub fn write_part(&self, place: &FilePlace, origin: &Origin) -> Result<()> {
         let header = Header {
             kind: FileKind::Part,

@@ -2,7 +2,7 @@
 
 use super::{
     AccelKind, CHUNK, MAX_BOUNCES, MAX_PIXELS, MAX_SAMPLES, MAX_SIDE, MAX_THREADS, MIN_TIME, SCRAMBLE_LENGTH,
-    SHORT_SCRAMBLE_LENGTH, memory, no_embree, saved,
+    SHORT_SCRAMBLE_LENGTH, memory, saved,
 };
 use crate::accel::{BvhQuality, Isa, Precision, check_isa};
 use crate::error::{Error, Result};
@@ -156,12 +156,13 @@ impl Settings {
 
     /// Whether this can be rendered on this machine: ranges, memory for the film, features of the build. Nothing is
     /// allocated.
+    ///
+    /// # Errors
+    /// The first thing that can't be, with what would be right.
     pub fn check(&self) -> Result<()> {
         self.check_ranges()?;
         self.check_part()?;
-        if self.accel == AccelKind::Embree && !cfg!(feature = "embree") {
-            return Err(no_embree());
-        }
+        self.accel.check()?;
         check_isa(self.isa)?;
         memory::check(self)
     }

@@ -9,10 +9,8 @@ pub use independent::{Independent, IndependentSet};
 pub use scrambles::{Place, SCRAMBLES, Scrambles};
 pub use sobol::{Sobol, SobolSet};
 
-use crate::error::Error;
 use serde::{Deserialize, Serialize};
 use std::fmt;
-use std::str::FromStr;
 
 /// A source of random numbers. It holds no state but the seed: equal arguments give equal numbers on every machine, in
 /// every order, on every thread.
@@ -83,16 +81,6 @@ impl SamplerKind {
 impl fmt::Display for SamplerKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(self.name())
-    }
-}
-
-impl FromStr for SamplerKind {
-    type Err = Error;
-
-    fn from_str(name: &str) -> Result<Self, Error> {
-        SamplerKind::ALL.into_iter().find(|kind| kind.name() == name).ok_or_else(|| {
-            Error::Usage(format!("unknown sampler `{name}`: expected `sobol` or `independent`"))
-        })
     }
 }
 

@@ -28,14 +28,11 @@ fn concentric(u: [f64; 2]) -> Disk {
     Disk { x, y, radius: major.abs() }
 }
 
-/// A point (x, y) uniform in the unit disk, from `u` in [0, 1)^2.
+/// A point (x, y) uniform in the unit disk (density 1 / pi per area), from `u` in [0, 1)^2.
 pub fn square_to_disk(u: [f64; 2]) -> [f64; 2] {
     let Disk { x, y, .. } = concentric(u);
     [x, y]
 }
-
-/// Density of [`square_to_disk`] per area.
-pub const DISK_PDF: f64 = INV_PI;
 
 /// A unit vector with z >= 0, distributed as the cosine with +z, from `u` in [0, 1)^2.
 #[inline]
@@ -49,14 +46,6 @@ pub fn square_to_cosine_hemisphere(u: [f64; 2]) -> DVec3 {
 pub fn cosine_hemisphere_pdf(cos: f64) -> f64 {
     cos.max(0.0) * INV_PI
 }
-
-/// A uniform unit vector, from `u` in [0, 1)^2.
-pub fn square_to_sphere(u: [f64; 2]) -> DVec3 {
-    square_to_cone(u, 2.0)
-}
-
-/// Density of [`square_to_sphere`] per solid angle.
-pub const SPHERE_PDF: f64 = 0.25 * INV_PI;
 
 /// A unit vector uniform in the cone about +z whose half angle has 1 - cosine = `one_minus_cos_max` in (0, 2],
 /// from `u` in [0, 1)^2. Taking one minus the cosine keeps cones of any width accurate.
@@ -73,14 +62,9 @@ pub fn cone_pdf(one_minus_cos_max: f64) -> f64 {
     0.5 * INV_PI / one_minus_cos_max
 }
 
-/// The barycentric coordinates of the second and third vertex for a point uniform in a triangle, from `u` in
-/// [0, 1)^2 (Heitz, "A Low-Distortion Map Between Triangle and Square", 2019).
+/// The barycentric coordinates of the second and third vertex for a point uniform in a triangle (density 1 / its area per
+/// area), from `u` in [0, 1)^2 (Heitz, "A Low-Distortion Map Between Triangle and Square", 2019).
 pub fn square_to_triangle(u: [f64; 2]) -> [f64; 2] {
     let [a, b] = u;
     if b > a { [0.5 * a, b - 0.5 * a] } else { [a - 0.5 * b, 0.5 * b] }
-}
-
-/// Density of [`square_to_triangle`] per area on a triangle of the given area.
-pub fn triangle_pdf(area: f64) -> f64 {
-    1.0 / area
 }

@@ -235,3 +235,20 @@ pub enum MaterialKind {
         ratio: f64,
     },
 }
+
+impl MaterialKind {
+    /// The radiance that its surface emits; zero is none.
+    pub fn emission(&self) -> Rgb {
+        match *self {
+            MaterialKind::Diffuse { emission, .. } => emission,
+            MaterialKind::Reflective { .. }
+            | MaterialKind::ClearCoat { .. }
+            | MaterialKind::Refractive { .. } => Rgb::ZERO,
+        }
+    }
+
+    /// Whether its surface is a light.
+    pub fn emits(&self) -> bool {
+        self.emission() != Rgb::ZERO
+    }
+}

@@ -129,13 +129,9 @@ fn material(
     Some(MaterialDesc { name: Some(mtl.name.clone()), kind: mtl.kind(), textures })
 }
 
-fn emits(material: &MaterialDesc) -> bool {
-    matches!(material.kind, MaterialKind::Diffuse { emission, .. } if emission != Rgb::ZERO)
-}
-
 /// The dark triangles together, then those of each emitting material.
 fn split(mesh: &Arc<MeshDesc>, starts: &[(u32, Arc<MaterialDesc>)]) -> Vec<Part> {
-    if !starts.iter().any(|(_, material)| emits(material)) {
+    if !starts.iter().any(|(_, material)| material.kind.emits()) {
         let (first, rest) = (&starts[0].1, &starts[1..]);
         return vec![Part { mesh: mesh.clone(), material: first.clone(), faces: rest.to_vec() }];
     }
@@ -157,9 +153,9 @@ fn split(mesh: &Arc<MeshDesc>, starts: &[(u32, Arc<MaterialDesc>)]) -> Vec<Part>
             parts.push(Part { mesh: Arc::new(subset(mesh, &triangles)), material, faces });
         }
     };
-    add(&|material| !emits(material));
+    add(&|material| !material.kind.emits());
     let mut seen: Vec<&Arc<MaterialDesc>> = Vec::new();
-    for (_, lit) in starts.iter().filter(|(_, material)| emits(material)) {
+    for (_, lit) in starts.iter().filter(|(_, material)| material.kind.emits()) {
         if !seen.iter().any(|other| Arc::ptr_eq(other, lit)) {
             seen.push(lit);
             add(&|material| Arc::ptr_eq(material, lit));

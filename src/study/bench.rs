@@ -88,6 +88,9 @@ pub fn memory_bytes(triangles: usize) -> u64 {
 }
 
 /// Measures a generated mesh.
+///
+/// # Errors
+/// Threads that can't be started; an instruction set that the machine lacks; an accelerator that can't be built.
 pub fn family(family: Family, triangles: usize, options: &Options) -> Result<Rung> {
     let geometry = triangles::geometry_of(family.make(triangles, options.seed));
     let mut leak_rays = Vec::new();
@@ -110,6 +113,9 @@ pub fn family(family: Family, triangles: usize, options: &Options) -> Result<Run
 }
 
 /// Measures the mesh of a file, seen from outside.
+///
+/// # Errors
+/// Threads that can't be started; an instruction set that the machine lacks; an accelerator that can't be built.
 pub fn mesh(name: String, desc: MeshDesc, options: &Options) -> Result<Rung> {
     let upright = |[x, y, z]: [f64; 3]| DVec3::new(x, -z, y);
     let positions = desc.positions.into_iter().map(upright).collect();
@@ -121,6 +127,9 @@ pub fn mesh(name: String, desc: MeshDesc, options: &Options) -> Result<Rung> {
 }
 
 /// Measures a scene with the rays of its own paths.
+///
+/// # Errors
+/// Threads that can't be started; an instruction set that the machine lacks; an accelerator that can't be built.
 pub fn scene(name: String, world: &World, camera: &CameraDesc, options: &Options) -> Result<Rung> {
     let pools = Pools::new(options.threads)?;
     let height = ((options.rays as f64 * 9.0 / 16.0).sqrt().round() as u32).max(1);
@@ -176,8 +185,7 @@ fn measure<'g>(
         |t: usize, i: usize, round: usize| geometric_mean(rates[t][i].iter().map(|values| values[round]));
     let means =
         |t: usize, i: usize| (0..options.rounds).map(move |round| mean(t, i, round)).collect::<Vec<f64>>();
-    let wanted = if cfg!(feature = "embree") { AccelKind::Embree } else { AccelKind::Native };
-    let baseline = Kind { accel: wanted, precision: Precision::Fast };
+    let baseline = Kind { accel: AccelKind::default(), precision: Precision::Fast };
     let baseline = kinds.iter().position(|&kind| kind == baseline).unwrap_or(0);
     let row = |(i, contender): (usize, &Contender<'_>)| {
         let relative = |t: usize| {

@@ -104,11 +104,10 @@ impl Comparison {
 
 /// Compares Embree with the native accelerator on the rays of a scene; `say` is told what is being done.
 ///
-/// Errors: a build without Embree; an instruction set that the machine lacks; what building and rendering may fail with.
+/// # Errors
+/// A build without Embree; an instruction set that the machine lacks; what building and rendering may fail with.
 pub fn run(world: &World, camera: &CameraDesc, options: &Options, say: &dyn Fn(&str)) -> Result<Comparison> {
-    if !cfg!(feature = "embree") {
-        return Err(contender::no_embree());
-    }
+    AccelKind::Embree.check()?;
     let machine = Machine::here(options.isa, options.threads)?;
     let pools = Pools::new(options.threads)?;
     say("recording rays");

@@ -23,15 +23,10 @@ pub struct Kind {
 }
 
 impl Kind {
-    /// All accelerators that are compiled in at these precisions, Embree first.
+    /// All accelerators that are of this build at these precisions, the default accelerator first.
     pub fn all(precisions: &[Precision]) -> Vec<Kind> {
-        let accels: &[AccelKind] = if cfg!(feature = "embree") {
-            &[AccelKind::Embree, AccelKind::Native]
-        } else {
-            &[AccelKind::Native]
-        };
         let of = |&accel| precisions.iter().map(move |&precision| Kind { accel, precision });
-        accels.iter().flat_map(of).collect()
+        AccelKind::BUILT.iter().flat_map(of).collect()
     }
 
     /// The accelerator's name.
@@ -54,7 +49,7 @@ impl Kind {
                 (Box::new(embree), bytes)
             }
             #[cfg(not(feature = "embree"))]
-            AccelKind::Embree => return Err(no_embree()),
+            AccelKind::Embree => return Err(AccelKind::Embree.missing()),
             AccelKind::Native => {
                 let native = Bvh::build(geometry, &options)?;
                 let bytes = native.bytes();
@@ -69,13 +64,6 @@ impl Kind {
 pub(super) fn build_options(precision: Precision, isa: Option<Isa>) -> BuildOptions {
     let precise = BuildOptions { precision, ..BuildOptions::default() };
     BuildOptions { isa, ..precise }
-}
-
-/// The answer to who asks for Embree in a build without it.
-pub fn no_embree() -> Error {
-    Error::Usage(
-        "this build has no Embree: install Debian's libembree-dev and build with `--features embree`".into(),
-    )
 }
 
 /// An accelerator, built, with what that took.
@@ -112,6 +100,9 @@ pub struct Pools([ThreadPool; 2]);
 
 impl Pools {
     /// Of one and of `threads` threads.
+    ///
+    /// # Errors
+    /// Threads that can't be started.
     pub fn new(threads: usize) -> Result<Pools> {
         let pool = |threads| {
             let pool = ThreadPoolBuilder::new().num_threads(threads).build();
@@ -136,6 +127,9 @@ impl Pools {
 const BUILD_SECONDS: f64 = 0.1;
 
 /// Builds every kind over `geometry`, up to `rounds` times in turn, on one thread and then on all.
+///
+/// # Errors
+/// An accelerator that this build lacks, or that can't be built; an instruction set that the machine lacks.
 pub fn build<'g>(
     kinds: &[Kind],
     geometry: &'g Geometry,
@@ -215,6 +209,9 @@ fn rates(contenders: &[Contender<'_>], sets: &[RaySet], rounds: usize) -> Rates 
 }
 
 /// The instruction set that is used if `isa` is asked for.
+///
+/// # Errors
+/// The machine lacks it.
 pub fn instructions(isa: Option<Isa>) -> Result<&'static str> {
     used_isa(isa).map(Isa::name)
 }

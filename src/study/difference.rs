@@ -71,7 +71,10 @@ impl Metrics {
 }
 
 impl Difference {
-    /// Compares a picture with what it should be. An error if their sizes differ.
+    /// Compares a picture with what it should be.
+    ///
+    /// # Errors
+    /// Their sizes differ.
     pub fn new(picture: &Decoded, reference: &Decoded) -> Result<Difference> {
         let sizes = [picture, reference].map(|picture| (picture.width, picture.height));
         if sizes[0] != sizes[1] {

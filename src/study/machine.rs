@@ -26,7 +26,10 @@ pub struct Machine {
 }
 
 impl Machine {
-    /// This one. [`Error::Usage`](crate::error::Error::Usage) if it lacks the instruction set asked for.
+    /// This one.
+    ///
+    /// # Errors
+    /// It lacks the instruction set asked for.
     pub fn here(isa: Option<Isa>, threads: usize) -> Result<Machine> {
         let model = fs::read_to_string("/proc/cpuinfo").ok().and_then(|text| {
             let line = text.lines().find(|line| line.starts_with("model name"))?;

@@ -67,6 +67,9 @@ fn build_cost(rung: &Rung, row: &Row) -> Spread {
 
 impl Plot<'_> {
     /// As an SVG file.
+    ///
+    /// # Errors
+    /// Those of drawing, which a string never has.
     pub fn svg(&self) -> Result<String> {
         let mut text = String::new();
         let root = SVGBackend::with_string(&mut text, self.size()).into_drawing_area();
@@ -76,6 +79,9 @@ impl Plot<'_> {
     }
 
     /// The pixels of a picture, R G B row by row, with its width and height.
+    ///
+    /// # Errors
+    /// Those of drawing, which a buffer of the right size never has.
     pub fn pixels(&self) -> Result<(Vec<u8>, u32, u32)> {
         let (width, height) = self.size();
         let mut pixels = vec![0; 3 * width as usize * height as usize];

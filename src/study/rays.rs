@@ -20,7 +20,7 @@ pub enum RayKind {
 }
 
 impl RayKind {
-    /// All of them, in the order of tables.
+    /// In the order of tables.
     pub const ALL: [RayKind; 4] = [RayKind::Primary, RayKind::Bounce, RayKind::Shadow, RayKind::Random];
 
     /// Its name.

@@ -50,7 +50,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// All of them.
+    /// In the order in which they are measured.
     pub const ALL: [Kind; 5] =
         [Kind::Threads, Kind::Pixels, Kind::Triangles, Kind::ShiningTriangles, Kind::ShiningBalls];
 

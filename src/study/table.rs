@@ -1,5 +1,7 @@
 //! Figures as text: aligned columns for people, CSV for programs.
 
+pub use crate::words::{counted, grouped};
+
 use super::rounds::Spread;
 use serde::Serialize;
 use std::fmt;
@@ -115,22 +117,4 @@ pub fn short(x: f64) -> String {
         small => ((2.0 - small.log10().floor()) as usize).min(9),
     };
     format!("{x:.digits$}")
-}
-
-/// A whole number with commas between thousands.
-pub fn grouped(count: u64) -> String {
-    let digits = count.to_string();
-    let mut text = String::new();
-    for (i, digit) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
-}
-
-/// A count of things, with the word in the right number: `1 triangle`, `2,000 triangles`.
-pub fn counted(count: u64, word: &str) -> String {
-    format!("{} {word}{}", grouped(count), if count == 1 { "" } else { "s" })
 }

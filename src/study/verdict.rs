@@ -57,7 +57,7 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// All of them.
+    /// In the order of the columns of tables.
     pub const ALL: [Verdict; 4] = [Verdict::Same, Verdict::Tie, Verdict::Edge, Verdict::Other];
 
     /// Its name.

@@ -6,7 +6,7 @@ use super::meshes::{Placement, SharedMeshes};
 use super::place;
 use super::requires::Requires;
 use super::shading::NormalsBuilder;
-use super::sky::{Sky, SkyKind};
+use super::sky::Sky;
 use super::varied::VariedBuilder;
 use crate::error::{Diagnostic, Error, Result, Severity};
 use crate::geometry::{Ball, Cuboid, Geometry, MeshPart, Rectangle, Shape, Solid};
@@ -17,7 +17,11 @@ use std::collections::HashSet;
 use std::sync::Arc;
 
 impl World {
-    /// Compiles a scene. Fails where an object lies beyond what numbers can hold.
+    /// Compiles a scene.
+    ///
+    /// # Errors
+    /// Objects that lie, or reach, beyond what numbers can hold, or are too small for them, and meshes with too many triangles to be
+    /// counted; each with its place in the file.
     pub fn compile(desc: &SceneDesc) -> Result<World> {
         countable(&desc.objects)?;
         let origin = place::origin(&desc.objects);
@@ -40,8 +44,7 @@ impl World {
         }
         let Parts { solids, meshes, shared, normals, varied } = parts;
         let geometry = Arc::new(Geometry::with_instances(solids, meshes, shared.spaces));
-        let emission: Vec<Rgb> =
-            desc.objects.iter().map(|object| emission_of(&object.material.kind)).collect();
+        let emission: Vec<Rgb> = desc.objects.iter().map(|object| object.material.kind.emission()).collect();
         let sky = Sky::new(&desc.environment, desc.environment_map.as_ref());
         let lights = Lights::new(&geometry, &emission, &sky);
         let mut world = World {
@@ -67,7 +70,7 @@ fn countable(objects: &[ObjectDesc]) -> Result<()> {
     let mut seen = HashSet::new();
     for object in objects {
         if let ShapeDesc::TriangleMesh { mesh, .. } = &object.shape
-            && (emission_of(&object.material.kind) != Rgb::ZERO || seen.insert(Arc::as_ptr(mesh)))
+            && (object.material.kind.emits() || seen.insert(Arc::as_ptr(mesh)))
         {
             let more = [mesh.triangles.len(), mesh.positions.len(), mesh.normals.len()];
             counts = [0, 1, 2].map(|i| counts[i] + more[i]);
@@ -163,13 +166,6 @@ fn rotation_matrix(degrees: DVec3) -> DMat3 {
     z * y * x
 }
 
-fn emission_of(kind: &MaterialKind) -> Rgb {
-    match *kind {
-        MaterialKind::Diffuse { emission, .. } => emission,
-        _ => Rgb::ZERO,
-    }
-}
-
 /// The material with its colours as they are given.
 pub(super) fn material_of(kind: &MaterialKind) -> Material {
     match *kind {
@@ -198,23 +194,4 @@ fn refusal(object: &ObjectDesc, problem: String, help: &str) -> Diagnostic {
         source_line: None,
         help: Some(help.into()),
     }
-}
-
-impl Requires {
-    /// Of an empty scene.
-    const NOTHING: Requires = Requires {
-        triangles: 0,
-        instances: 0,
-        linear_solids: 0,
-        tree_solids: 0,
-        area_lights: 0,
-        sky: SkyKind::Black,
-        light_sampling: false,
-        smooth_balls: 0,
-        branches: 1,
-        lens: false,
-        shading_normals: false,
-        textures: 0,
-        refraction: false,
-    };
 }

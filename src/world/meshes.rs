@@ -2,7 +2,7 @@
 
 use crate::geometry::{Instance, MeshPart, MeshSpace};
 use crate::math::{DMat3, DVec3};
-use crate::scene::desc::{Axes, MaterialKind, MeshDesc, ObjectDesc, ShapeDesc};
+use crate::scene::desc::{Axes, MeshDesc, ObjectDesc, ShapeDesc};
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -91,10 +91,8 @@ impl SharedMeshes {
 
 /// The mesh of an object that does not emit.
 fn dark_mesh(object: &ObjectDesc) -> Option<&Arc<MeshDesc>> {
-    let emits =
-        matches!(object.material.kind, MaterialKind::Diffuse { emission, .. } if emission != DVec3::ZERO);
     match &object.shape {
-        ShapeDesc::TriangleMesh { mesh, .. } if !emits => Some(mesh),
+        ShapeDesc::TriangleMesh { mesh, .. } if !object.material.kind.emits() => Some(mesh),
         _ => None,
     }
 }

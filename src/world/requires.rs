@@ -5,6 +5,7 @@ use super::sky::SkyKind;
 use crate::geometry::Shape;
 use crate::material::Material;
 use crate::scene::desc::{ApertureDesc, SceneDesc};
+use crate::words::{counted, grouped};
 use serde::Serialize;
 use std::fmt;
 
@@ -40,6 +41,23 @@ pub struct Requires {
 }
 
 impl Requires {
+    /// Of an empty scene; of a world until it is known.
+    pub(super) const NOTHING: Requires = Requires {
+        triangles: 0,
+        instances: 0,
+        linear_solids: 0,
+        tree_solids: 0,
+        area_lights: 0,
+        sky: SkyKind::Black,
+        light_sampling: false,
+        smooth_balls: 0,
+        branches: 1,
+        lens: false,
+        shading_normals: false,
+        textures: 0,
+        refraction: false,
+    };
+
     pub(super) fn of(desc: &SceneDesc, world: &World) -> Requires {
         let materials = || world.materials.iter().chain(world.varied.face_materials());
         let diffuse = materials().any(|material| !material.is_delta());
@@ -72,7 +90,7 @@ impl fmt::Display for Requires {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut parts = Vec::new();
         if self.triangles > 0 {
-            parts.push(format!("a tree over {}", counted(self.triangles, "triangle")));
+            parts.push(format!("a tree over {}", counted(self.triangles as u64, "triangle")));
         }
         let solids = if self.instances > 0 {
             "balls, boxes, rectangles and instances"
@@ -80,13 +98,13 @@ impl fmt::Display for Requires {
             "balls, boxes and rectangles"
         };
         if self.instances > 0 {
-            parts.push(format!("{} of shared meshes", counted(self.instances, "instance")));
+            parts.push(format!("{} of shared meshes", counted(self.instances as u64, "instance")));
         }
         if self.tree_solids > 0 {
-            parts.push(format!("a tree over {} {solids}", self.tree_solids));
+            parts.push(format!("a tree over {} {solids}", grouped(self.tree_solids as u64)));
         }
         if self.linear_solids > 0 {
-            parts.push(format!("{} without a tree", counted(self.linear_solids, "shape")));
+            parts.push(format!("{} without a tree", counted(self.linear_solids as u64, "shape")));
         }
         parts.push(match self.sky {
             SkyKind::Black => "no sky".into(),
@@ -99,12 +117,15 @@ impl fmt::Display for Requires {
                 parts.push(name.into());
             }
         };
-        option(self.light_sampling, &format!("light sampling ({})", counted(self.area_lights, "area light")));
-        option(self.smooth_balls > 0, &format!("caustics of {}", counted(self.smooth_balls, "ball")));
+        option(
+            self.light_sampling,
+            &format!("light sampling ({})", counted(self.area_lights as u64, "area light")),
+        );
+        option(self.smooth_balls > 0, &format!("caustics of {}", counted(self.smooth_balls as u64, "ball")));
         option(self.branches > 1, &format!("{} branches of a path", self.branches));
         option(self.lens, "a lens");
         option(self.shading_normals, "shading normals");
-        option(self.textures > 0, &format!("{} with mip maps", counted(self.textures, "texture")));
+        option(self.textures > 0, &format!("{} with mip maps", counted(self.textures as u64, "texture")));
         option(self.refraction, "refraction");
         write!(f, "{}", parts.join(", "))
     }
@@ -123,8 +144,4 @@ fn branches(world: &World) -> u32 {
         SkyKind::Constant => 2,
         SkyKind::Gradient | SkyKind::Map => 1,
     }
-}
-
-fn counted(count: usize, noun: &str) -> String {
-    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }

@@ -58,7 +58,7 @@ impl NormalsBuilder {
         normals.of_object[object as usize] = Some(Turned { mesh: index, rotation: placement.rotation });
     }
 
-    /// All of them.
+    /// What was added.
     pub(super) fn finish(self) -> ShadingNormals {
         self.normals
     }

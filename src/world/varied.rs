@@ -132,7 +132,7 @@ impl VariedBuilder {
         })
     }
 
-    /// All of them.
+    /// What was added.
     pub(super) fn finish(self) -> Varied {
         self.varied
     }

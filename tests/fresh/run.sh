@@ -4,7 +4,8 @@
 #   render    the README's first command
 #   tests     the README's second command
 #   both      these two (the default)
-#   package   packaging/deb.sh in that root; or nothing there, but the package DEB: then it is installed in a clean root
+#   package   packaging/deb.sh in that root (with PROGRAM in the environment: of a program that is built there already, such
+#             as the one that the tests leave, /root/target/debug/pathtracer); or nothing there, but the package DEB: then it is installed in a clean root
 #             without Rust, and renders an example as a user would
 # Needs root, debootstrap and a Rust toolchain of rustup here, which the new root borrows. A root that is there already is
 # used again: then the first command is not timed from nothing. Certificates and cargo's settings of this machine are
@@ -59,13 +60,21 @@ timed() {
         PATH=/root/.cargo/bin:/usr/sbin:/usr/bin:/sbin:/bin \
         "$(command -v chroot)" "$2" bash -euo pipefail -c "$3"
 }
+# Pictures at exact are the same file on every release, whatever its Embree.
+say_hash() {
+    test -s "$1"
+    printf 'SHA-256 of %s on %s: %s\n' "$(basename "$1")" "$suite" "$(sha256sum < "$1" | cut -d ' ' -f 1)"
+}
 build_package() {
-    timed 'build the package' "$1" "
+    timed 'install what the build needs' "$1" '
         apt-get -qq update
-        apt-get -qq install -y build-essential libclang-dev libembree-dev libopenimageio-dev pkg-config
-        cargo install --quiet cargo-deb --locked
-        cd /root/pathtracer && packaging/deb.sh"
-    package=$(echo "$1"/root/target/debian/pathtracer_*.deb)
+        apt-get -qq install -y build-essential libclang-dev libembree-dev libopenimageio-dev pkg-config'
+    timed 'build cargo-deb' "$1" 'cargo install --quiet --debug cargo-deb --locked'
+    # From nothing, whatever has been built before.
+    timed 'build everything and the package' "$1" '
+        export CARGO_TARGET_DIR=/root/pathtracer/target PROGRAM='"${PROGRAM:-}"'
+        cd /root/pathtracer && packaging/deb.sh && packaging/check.sh target/debian/pathtracer_*.deb'
+    package=$(echo "$1"/root/pathtracer/target/debian/pathtracer_*.deb)
 }
 # Installs the package where there is no compiler, and uses it as somebody who is not root.
 try_package() {
@@ -81,12 +90,14 @@ try_package() {
             pathtracer --version
             pathtracer check \$examples/*.yaml
             pathtracer \$examples/objectScene.yaml 320 320 8 10 objectScene.png
+            pathtracer \$examples/gallery.yaml 320 240 8 10 gallery.exr
             pathtracer \$examples/gallery.yaml 320 240 8 10 gallery.jpg
             pathtracer info gallery.jpg >/dev/null
             test -s objectScene.png -a -s gallery.jpg"
-        for file in man/man1/pathtracer.1.gz bash-completion/completions/pathtracer applications/pathtracer.desktop; do
-            test -s /usr/share/$file
-        done'
+        apt-cache policy $(dpkg-query --show --showformat "\${Recommends}" pathtracer | tr -d "|,") | grep -B 1 Installed'
+    # Meshes by Embree, and pictures as colours.
+    say_hash "$1/home/user/objectScene.png"
+    say_hash "$1/home/user/gallery.exr"
 }
 
 case $what in
@@ -110,7 +121,7 @@ package)
 esac
 if [ "$what" = render ] || [ "$what" = both ]; then
     timed 'set up and render' "$folder/$suite" "cd /root/pathtracer && $(command_after 'Set up and render:')"
-    test -s "$folder/$suite/root/pathtracer/bigBalls.png"
+    say_hash "$folder/$suite/root/pathtracer/bigBalls.png"
 fi
 if [ "$what" = tests ] || [ "$what" = both ]; then
     timed 'set up and pass the tests' "$folder/$suite" "cd /root/pathtracer && $(command_after 'Set up and pass the tests:')"

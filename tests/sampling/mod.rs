@@ -6,7 +6,7 @@ mod sobol;
 mod warp;
 
 use crate::support::random::Sample4;
-use pathtracer::sampling::{Independent, NumberSet, PixelSeed, Sampler, SamplerKind, Sobol};
+use pathtracer::sampling::{Independent, NumberSet, PixelSeed, Sampler, Sobol};
 
 /// The p-value of pairs of numbers against the uniform distribution on the unit square, 32 x 32 cells.
 fn pairs_uniform(pairs: impl Iterator<Item = (f64, f64)>) -> f64 {
@@ -55,20 +55,6 @@ fn p_values_of_neighbours<S: Sampler>() -> Vec<(&'static str, f64)> {
         ("sample and set", pairs_uniform(base().zip(at(one, 0, 0, 9, 4, 1)))),
         ("block of 2^32 samples", pairs_uniform(base().zip(at(one, 0, 0, 5 + (1 << 32), 3, 1)))),
     ]
-}
-
-#[test]
-fn names_are_read_back() {
-    for kind in SamplerKind::ALL {
-        assert_eq!(kind.to_string().parse::<SamplerKind>().unwrap(), kind);
-    }
-    assert_eq!(SamplerKind::default(), SamplerKind::Sobol);
-}
-
-#[test]
-fn an_unknown_name_is_refused_with_the_known_ones() {
-    let message = "halton".parse::<SamplerKind>().unwrap_err().to_string();
-    assert_eq!(message, "unknown sampler `halton`: expected `sobol` or `independent`");
 }
 
 #[test]

@@ -70,6 +70,8 @@ impl TriangleTree {
 
 impl<'g> Bvh<'g> {
     /// Builds the trees with rayon's current pool; the result does not depend on the number of threads.
+    ///
+    /// # Errors
     /// [`crate::error::Error::Usage`] if the machine lacks the instruction set asked for.
     pub fn build(geometry: &'g Geometry, options: &BuildOptions) -> Result<Bvh<'g>> {
         let instructions = Instructions::choose(options.isa)?;

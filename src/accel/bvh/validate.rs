@@ -10,6 +10,8 @@ impl Bvh<'_> {
     /// Checks that every triangle and every solid of the trees is in exactly one leaf, that every box holds everything
     /// below it, that no node is shared or out of reach, and that no path is longer than the stack allows. A triangle in
     /// pieces may be in several leaves, whose boxes hold it together.
+    ///
+    /// # Errors
     /// The first thing that is wrong, in words.
     pub fn validate(&self) -> Result<(), String> {
         for (space, tree) in self.geometry.spaces.iter().zip(&self.triangles) {

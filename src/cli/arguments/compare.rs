@@ -1,7 +1,7 @@
 //! `pathtracer compare SCENE`, as it was typed.
 
 use super::shared::{Machine, Sinks};
-use super::values::{PRECISIONS, amount, choice, size, whole};
+use super::values::{amount, choice, size, whole};
 use crate::accel::Precision;
 use crate::render::MAX_BOUNCES;
 use crate::study::compare::Options;
@@ -24,7 +24,7 @@ pub(in crate::cli) struct CompareArguments {
     #[arg(value_name = "SCENE")]
     scene: PathBuf,
     /// How hits of triangles are found, by both [default: exact]
-    #[arg(long, value_name = "NAME", value_parser = choice(&PRECISIONS))]
+    #[arg(long, value_name = "NAME", value_parser = choice(&Precision::ALL, Precision::name))]
     precision: Option<Precision>,
     #[command(flatten)]
     machine: Machine,

@@ -1,6 +1,6 @@
 //! `pathtracer merge` as it was typed.
 
-use super::values::{AOVS, DEPTHS, choice, stops};
+use super::values::{choice, stops};
 use crate::error::Error;
 use crate::output::{Aov, Wanted};
 use crate::picture::Depth;
@@ -23,10 +23,10 @@ pub(in crate::cli) struct MergeArguments {
     #[arg(long, value_name = "STOPS", allow_negative_numbers = true, default_value = "0", value_parser = stops)]
     pub(in crate::cli) exposure: f64,
     /// What a value of the picture takes
-    #[arg(long, value_name = "NAME", value_parser = choice(&DEPTHS))]
+    #[arg(long, value_name = "NAME", value_parser = choice(&Depth::ALL, Depth::name))]
     pub(in crate::cli) depth: Option<Depth>,
     /// Channels of an EXR beside the light, if the parts have them
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = choice(&AOVS))]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = choice(&Aov::ALL, Aov::name))]
     pub(in crate::cli) aov: Vec<Aov>,
     /// Remove noise by Open Image Denoise, if the parts were rendered with --aov or --denoise
     #[arg(long)]

@@ -1,6 +1,6 @@
 //! Options that the commands which measure have in common.
 
-use super::values::{ISAS, choice, whole};
+use super::values::{choice, whole};
 use crate::accel::Isa;
 use crate::render::MAX_THREADS;
 use std::num::TryFromIntError;
@@ -13,7 +13,7 @@ pub(super) struct Machine {
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole(MAX_THREADS as u64))]
     threads: Option<u64>,
     /// Most instructions to use [default: the machine's best]
-    #[arg(long, value_name = "NAME", value_parser = choice(&ISAS))]
+    #[arg(long, value_name = "NAME", value_parser = choice(&Isa::ALL, Isa::name))]
     pub(super) isa: Option<Isa>,
 }
 

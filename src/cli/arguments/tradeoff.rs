@@ -1,7 +1,7 @@
 //! `pathtracer tradeoff SCENE`, as it was typed.
 
 use super::shared::{Machine, Sinks};
-use super::values::{ACCELS, PRECISIONS, SAMPLERS, SWITCH, amount, choice, positive, size, whole};
+use super::values::{amount, choice, positive, size, switch, whole};
 use crate::accel::Precision;
 use crate::render::{AccelKind, MAX_BOUNCES, MAX_SAMPLES};
 use crate::sampling::SamplerKind;
@@ -38,16 +38,16 @@ pub(in crate::cli) struct TradeoffArguments {
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = whole(MAX_BOUNCES.into()))]
     bounces: Vec<u64>,
     /// What finds hits [default: all that are compiled in]
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = choice(&ACCELS))]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = choice(&AccelKind::ALL, AccelKind::name))]
     accel: Vec<AccelKind>,
     /// How hits of triangles are found [default: exact,robust,fast; exact without meshes]
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = choice(&PRECISIONS))]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = choice(&Precision::ALL, Precision::name))]
     precision: Vec<Precision>,
     /// Where random numbers come from [default: sobol,independent]
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = choice(&SAMPLERS))]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = choice(&SamplerKind::ALL, SamplerKind::name))]
     sampler: Vec<SamplerKind>,
     /// Whether lights are sampled [default: on,off; on without lights]
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = choice(&SWITCH))]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = switch())]
     light_sampling: Vec<bool>,
     /// Limits of the components of a sample, beside none [default: none]
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = positive)]
@@ -168,11 +168,6 @@ impl TradeoffArguments {
 impl TradeoffJob {
     /// The grid for a scene: what it does not need is not tried unless asked for.
     pub(in crate::cli) fn grid(&self, requires: &Requires) -> Grid {
-        let all_accels = if cfg!(feature = "embree") {
-            vec![AccelKind::Embree, AccelKind::Native]
-        } else {
-            vec![AccelKind::Native]
-        };
         let precisions = match requires.triangles {
             0 => vec![Precision::Exact],
             _ => vec![Precision::Exact, Precision::Robust, Precision::Fast],
@@ -180,7 +175,7 @@ impl TradeoffJob {
         let lights = if requires.light_sampling { vec![true, false] } else { vec![true] };
         let grid = self.grid.clone();
         Grid {
-            accels: or_else(grid.accels, all_accels),
+            accels: or_else(grid.accels, AccelKind::BUILT.to_vec()),
             precisions: or_else(grid.precisions, precisions),
             samplers: or_else(grid.samplers, SamplerKind::ALL.to_vec()),
             light_sampling: or_else(grid.light_sampling, lights),

@@ -1,60 +1,10 @@
-//! Values of options: names in tables, numbers in ranges.
+//! Values of options: names of choices, numbers in ranges.
 
-use crate::accel::{BvhQuality, Isa, Precision};
 use crate::film::Region;
-use crate::output::Aov;
-use crate::picture::Depth;
-use crate::render::{AccelKind, FeatureKind, MIN_TIME};
-use crate::sampling::SamplerKind;
+use crate::render::MIN_TIME;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap_complete::Shell;
 use std::time::Duration;
-
-/// The names of the accelerators.
-pub(in crate::cli) const ACCELS: [(&str, AccelKind); 2] =
-    [(AccelKind::Embree.name(), AccelKind::Embree), (AccelKind::Native.name(), AccelKind::Native)];
-/// The names of the precisions.
-pub(in crate::cli) const PRECISIONS: [(&str, Precision); 3] = [
-    (Precision::Exact.name(), Precision::Exact),
-    (Precision::Robust.name(), Precision::Robust),
-    (Precision::Fast.name(), Precision::Fast),
-];
-/// The names of the qualities of trees.
-pub(in crate::cli) const BVHS: [(&str, BvhQuality); 3] = [
-    (BvhQuality::Fast.name(), BvhQuality::Fast),
-    (BvhQuality::Default.name(), BvhQuality::Default),
-    (BvhQuality::Quality.name(), BvhQuality::Quality),
-];
-/// The names of the instruction sets.
-pub(in crate::cli) const ISAS: [(&str, Isa); 3] =
-    [(Isa::Sse2.name(), Isa::Sse2), (Isa::Avx2.name(), Isa::Avx2), (Isa::Avx512.name(), Isa::Avx512)];
-pub(super) const SAMPLERS: [(&str, SamplerKind); 2] = [
-    (SamplerKind::Sobol.name(), SamplerKind::Sobol),
-    (SamplerKind::Independent.name(), SamplerKind::Independent),
-];
-pub(super) const DEPTHS: [(&str, Depth); 4] = [
-    (Depth::Eight.name(), Depth::Eight),
-    (Depth::Sixteen.name(), Depth::Sixteen),
-    (Depth::Half.name(), Depth::Half),
-    (Depth::Float.name(), Depth::Float),
-];
-pub(super) const AOVS: [(&str, Aov); 7] = [
-    (FeatureKind::Albedo.name(), Aov::Feature(FeatureKind::Albedo)),
-    (FeatureKind::Normal.name(), Aov::Feature(FeatureKind::Normal)),
-    (FeatureKind::Depth.name(), Aov::Feature(FeatureKind::Depth)),
-    (FeatureKind::Position.name(), Aov::Feature(FeatureKind::Position)),
-    (FeatureKind::Object.name(), Aov::Feature(FeatureKind::Object)),
-    (Aov::Samples.name(), Aov::Samples),
-    (Aov::Error.name(), Aov::Error),
-];
-pub(super) const SHELLS: [(&str, Shell); 3] =
-    [("bash", Shell::Bash), ("zsh", Shell::Zsh), ("fish", Shell::Fish)];
-pub(super) const SWITCH: [(&str, bool); 2] = [("on", true), ("off", false)];
-
-/// The name of a value in one of the tables above.
-pub(in crate::cli) fn name_of<T: PartialEq>(table: &[(&'static str, T)], value: &T) -> Option<&'static str> {
-    table.iter().find(|(_, other)| other == value).map(|&(name, _)| name)
-}
 
 /// Parses a whole number from 1 to `most`.
 pub(super) fn whole(most: u64) -> impl Fn(&str) -> Result<u64, String> + Clone {
@@ -171,12 +121,23 @@ pub(super) fn stops(text: &str) -> Result<f64, String> {
     number.ok_or_else(|| "expected a number from -100 to 100".to_owned())
 }
 
-/// Parses one of the names in a table.
+/// Parses the name of one of the values `all`.
 pub(super) fn choice<T: Copy + Send + Sync + 'static>(
-    table: &'static [(&'static str, T)],
+    all: &'static [T],
+    name: fn(T) -> &'static str,
 ) -> impl TypedValueParser<Value = T> {
-    PossibleValuesParser::new(table.iter().map(|&(name, _)| name)).try_map(move |name| {
-        let found = table.iter().find(|&&(known, _)| known == name);
-        found.map(|&(_, value)| value).ok_or("unknown name")
+    PossibleValuesParser::new(all.iter().map(move |&value| name(value))).try_map(move |text| {
+        let found = all.iter().find(|&&value| name(value) == text);
+        found.copied().ok_or("unknown name")
     })
+}
+
+/// Parses `on` and `off`.
+pub(super) fn switch() -> impl TypedValueParser<Value = bool> {
+    choice(&[true, false], |is_on| if is_on { "on" } else { "off" })
+}
+
+/// Parses the name of a shell that completions can be made for.
+pub(super) fn shell() -> impl TypedValueParser<Value = Shell> {
+    PossibleValuesParser::new(["bash", "zsh", "fish"]).try_map(|name| name.parse::<Shell>())
 }

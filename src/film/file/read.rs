@@ -77,21 +77,33 @@ impl Reader {
     }
 
     /// Reads `count` f64.
+    ///
+    /// # Errors
+    /// A file that ends before, or can't be read.
     pub fn doubles(&mut self, count: u64) -> Result<Vec<f64>> {
         self.all(count, f64::from_le_bytes)
     }
 
     /// Reads `count` f32.
+    ///
+    /// # Errors
+    /// A file that ends before, or can't be read.
     pub fn floats(&mut self, count: u64) -> Result<Vec<f32>> {
         self.all(count, f32::from_le_bytes)
     }
 
     /// Reads `count` u64.
+    ///
+    /// # Errors
+    /// A file that ends before, or can't be read.
     pub fn integers(&mut self, count: u64) -> Result<Vec<u64>> {
         self.all(count, u64::from_le_bytes)
     }
 
     /// Reads `count` f64 that are sums of light, so neither negative nor NaN.
+    ///
+    /// # Errors
+    /// A file that ends before, or can't be read; sums that are negative or NaN.
     pub fn light(&mut self, count: u64) -> Result<Vec<f64>> {
         let values = self.doubles(count)?;
         match values.iter().all(|&value| value >= 0.0) {
@@ -101,6 +113,9 @@ impl Reader {
     }
 
     /// All sums must have been read.
+    ///
+    /// # Errors
+    /// There are more.
     pub fn finish(self) -> Result<()> {
         if self.left > 0 {
             return Err(self.refuse("holds more sums than its header says"));

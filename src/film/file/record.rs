@@ -66,6 +66,9 @@ impl FilmRecord {
     }
 
     /// Writes the sums of a film.
+    ///
+    /// # Errors
+    /// Those of writing the file.
     pub fn write(film: &Film, writer: &mut Writer) -> io::Result<()> {
         for Node { sums, .. } in &film.nodes {
             writer.doubles(sums.radiance.iter().flat_map(|sum| sum.to_array()))?;
@@ -81,6 +84,9 @@ impl FilmRecord {
     }
 
     /// Reads what was written of the pixels of a frame.
+    ///
+    /// # Errors
+    /// A film that can't be: chunks that overlap, samples beyond a chunk's, sums that are no light; a file that ends before.
     pub fn read(&self, frame: Frame, reader: &mut Reader) -> Result<Film> {
         if self.chunk == 0 || self.chunk > u64::from(u32::MAX) || self.nodes.len() > MOST_NODES {
             return Err(reader.refuse("holds a film that can't be"));
@@ -207,6 +213,9 @@ impl Sums {
 impl Film {
     /// Adds samples without light, until there are `samples`, as a render has them where its blocks have stopped; `counts`
     /// tells how many of the first so many samples lie in each scramble.
+    ///
+    /// # Errors
+    /// Chunks that the film has already.
     pub fn extend(&mut self, samples: u64, counts: impl Fn(u64) -> [u64; SCRAMBLES]) -> Result<()> {
         let pixels = self.pixels();
         while self.samples() < samples {

@@ -1,114 +1,98 @@
 //! Writing: whole or not at all.
 
 use super::{BUFFER, FORMAT, MAGIC};
-use crate::error::{Error, Result};
-use crate::picture::{partial_file, replaced_file};
+use crate::error::Result;
+use crate::whole_file::WholeFile;
 use serde::Serialize;
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::{self, BufWriter, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use xxhash_rust::xxh3::Xxh3;
 
 /// A place for a film file.
 #[derive(Clone, Debug)]
-pub struct FilePlace {
-    path: PathBuf,
-    partial: PathBuf,
-}
+pub struct FilePlace(WholeFile);
 
 impl FilePlace {
     /// Looks whether a file can be written to `path`, by creating and removing a temporary one beside it. Nothing that
     /// exists is changed.
+    ///
+    /// # Errors
+    /// A folder that is missing or read-only; a path that is something other than a file.
     pub fn new(path: &Path) -> Result<FilePlace> {
-        let failed = |source| failed(path, source);
-        let target = replaced_file(path).map_err(failed)?;
-        if target.file_name().is_none() {
-            return Err(failed(io::ErrorKind::InvalidInput.into()));
-        }
-        let partial = partial_file(&target);
-        File::create(&partial).and_then(|_| fs::remove_file(&partial)).map_err(failed)?;
-        Ok(FilePlace { path: target, partial })
+        WholeFile::new(path, "write").map(FilePlace)
     }
 
     /// The file.
     pub fn path(&self) -> &Path {
-        &self.path
+        self.0.path()
     }
 
     /// The file that holds it until it is complete, in the same folder.
     pub fn partial_path(&self) -> &Path {
-        &self.partial
+        self.0.partial_path()
     }
 
-    /// Writes a header and what `sums` adds, brings it to the disk and gives it its name. After an error the file at the
-    /// path is as before and no temporary file is left.
+    /// Writes a header and what `sums` adds, brings it to the disk and gives it its name.
+    ///
+    /// # Errors
+    /// A disk that is full or fails, a folder that is gone. The file at the path is as before then, and no temporary file is
+    /// left.
     pub fn write<H: Serialize>(
         &self,
         header: &H,
-        sums: impl FnOnce(&mut Writer) -> io::Result<()>,
+        sums: impl FnOnce(&mut Writer<'_>) -> io::Result<()>,
     ) -> Result<()> {
-        self.try_write(header, sums).map_err(|error| {
-            // It may not even be there.
-            let _ = fs::remove_file(&self.partial);
-            failed(&self.path, error)
-        })
-    }
-
-    fn try_write<H: Serialize>(
-        &self,
-        header: &H,
-        sums: impl FnOnce(&mut Writer) -> io::Result<()>,
-    ) -> io::Result<()> {
-        let header = serde_json::to_vec(header)?;
-        let file = BufWriter::with_capacity(BUFFER, File::create(&self.partial)?);
-        let mut writer = Writer { file, hash: Xxh3::new(), buffer: Vec::new() };
-        writer.put(&MAGIC)?;
-        writer.put(&FORMAT.to_le_bytes())?;
-        writer.put(&u32::try_from(header.len()).map_err(io::Error::other)?.to_le_bytes())?;
-        writer.put(&header)?;
-        sums(&mut writer)?;
-        let checksum = writer.hash.digest128();
-        writer.put(&checksum.to_le_bytes())?;
-        let file = writer.file.into_inner().map_err(io::IntoInnerError::into_error)?;
-        file.sync_all()?;
-        drop(file);
-        fs::rename(&self.partial, &self.path)?;
-        sync_folder(&self.path);
-        Ok(())
+        self.0.write(|file| fill(file, header, sums).map_err(|source| self.0.failed(source)))
     }
 }
 
-/// Brings the new name to the disk too. Some file systems can't; the file itself is there already.
-fn sync_folder(path: &Path) {
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    if let Ok(folder) = File::open(folder) {
-        let _ = folder.sync_all();
-    }
-}
-
-fn failed(path: &Path, source: io::Error) -> Error {
-    Error::Io { action: "write".into(), path: path.into(), source }
+fn fill<H: Serialize>(
+    file: &File,
+    header: &H,
+    sums: impl FnOnce(&mut Writer<'_>) -> io::Result<()>,
+) -> io::Result<()> {
+    let header = serde_json::to_vec(header)?;
+    let file = BufWriter::with_capacity(BUFFER, file);
+    let mut writer = Writer { file, hash: Xxh3::new(), buffer: Vec::new() };
+    writer.put(&MAGIC)?;
+    writer.put(&FORMAT.to_le_bytes())?;
+    writer.put(&u32::try_from(header.len()).map_err(io::Error::other)?.to_le_bytes())?;
+    writer.put(&header)?;
+    sums(&mut writer)?;
+    let checksum = writer.hash.digest128();
+    writer.put(&checksum.to_le_bytes())?;
+    writer.file.flush()
 }
 
 /// A film file on its way.
-pub struct Writer {
-    file: BufWriter<File>,
+pub struct Writer<'f> {
+    file: BufWriter<&'f File>,
     hash: Xxh3,
     buffer: Vec<u8>,
 }
 
-impl Writer {
+impl Writer<'_> {
     /// Adds f64.
+    ///
+    /// # Errors
+    /// Those of writing the file.
     pub fn doubles(&mut self, values: impl IntoIterator<Item = f64>) -> io::Result<()> {
         self.all(values.into_iter().map(f64::to_le_bytes))
     }
 
     /// Adds f32.
+    ///
+    /// # Errors
+    /// Those of writing the file.
     pub fn floats(&mut self, values: impl IntoIterator<Item = f32>) -> io::Result<()> {
         self.all(values.into_iter().map(f32::to_le_bytes))
     }
 
     /// Adds u64.
+    ///
+    /// # Errors
+    /// Those of writing the file.
     pub fn integers(&mut self, values: impl IntoIterator<Item = u64>) -> io::Result<()> {
         self.all(values.into_iter().map(u64::to_le_bytes))
     }

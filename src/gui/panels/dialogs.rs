@@ -124,43 +124,9 @@ impl Choice {
             }
         });
         ScrollArea::vertical().max_height(260.0).auto_shrink([false, false]).show(ui, |ui| {
-            for folder in &self.listing.folders {
-                let name = folder.file_name().unwrap_or_default().to_string_lossy();
-                if ui.selectable_label(false, format!("{name}/")).clicked() {
-                    entered = Some(folder.clone());
-                }
-            }
-            for file in &self.listing.files {
-                let name = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
-                let label = ui.selectable_label(self.name == name, &name);
-                if label.clicked() {
-                    self.name = name;
-                }
-                if label.double_clicked() {
-                    chosen = Some(file.clone());
-                }
-            }
+            self.show_listing(ui, &mut chosen, &mut entered);
         });
-        ui.horizontal(|ui| {
-            let label = ui.label("Name");
-            let edit = TextEdit::singleline(&mut self.name).id_salt("name").desired_width(280.0);
-            let edit = ui.add(edit).labelled_by(label.id);
-            if std::mem::take(&mut self.is_new) {
-                edit.request_focus();
-            }
-            let is_entered = edit.lost_focus() && ui.ctx().input(|input| input.key_pressed(Key::Enter));
-            let is_there = !self.listing.folder.as_os_str().is_empty();
-            let is_pressed = ui.add_enabled(is_there, Button::new(self.purpose.verb())).clicked();
-            if (is_pressed || is_entered && is_there) && !self.name.is_empty() {
-                let path = self.listing.folder.join(&self.name);
-                if path.is_dir() {
-                    self.name.clear();
-                    entered = Some(path);
-                } else {
-                    chosen = Some(path);
-                }
-            }
-        });
+        ui.horizontal(|ui| self.show_name(ui, &mut chosen, &mut entered));
         if self.purpose == Purpose::SavePicture {
             self.depths(ui);
         }
@@ -168,6 +134,48 @@ impl Choice {
             self.enter(vec![folder], ui.ctx());
         }
         chosen
+    }
+
+    /// Draws the folders and files that there are.
+    fn show_listing(&mut self, ui: &mut Ui, chosen: &mut Option<PathBuf>, entered: &mut Option<PathBuf>) {
+        for folder in &self.listing.folders {
+            let name = folder.file_name().unwrap_or_default().to_string_lossy();
+            if ui.selectable_label(false, format!("{name}/")).clicked() {
+                *entered = Some(folder.clone());
+            }
+        }
+        for file in &self.listing.files {
+            let name = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            let label = ui.selectable_label(self.name == name, &name);
+            if label.clicked() {
+                self.name = name;
+            }
+            if label.double_clicked() {
+                *chosen = Some(file.clone());
+            }
+        }
+    }
+
+    /// Draws the field for the name, and the button.
+    fn show_name(&mut self, ui: &mut Ui, chosen: &mut Option<PathBuf>, entered: &mut Option<PathBuf>) {
+        let label = ui.label("Name");
+        let edit = TextEdit::singleline(&mut self.name).id_salt("name").desired_width(280.0);
+        let edit = ui.add(edit).labelled_by(label.id);
+        if std::mem::take(&mut self.is_new) {
+            edit.request_focus();
+        }
+        let is_entered = edit.lost_focus() && ui.ctx().input(|input| input.key_pressed(Key::Enter));
+        let is_there = !self.listing.folder.as_os_str().is_empty();
+        let is_pressed = ui.add_enabled(is_there, Button::new(self.purpose.verb())).clicked();
+        if (is_pressed || is_entered && is_there) && !self.name.is_empty() {
+            let path = self.listing.folder.join(&self.name);
+            if path.is_dir() {
+                self.name.clear();
+                *entered = Some(path);
+            } else {
+                *chosen = Some(path);
+            }
+        }
     }
 }
 

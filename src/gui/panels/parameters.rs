@@ -160,8 +160,7 @@ fn triple(ui: &mut Ui, studio: &mut Studio, label: &str, field: fn(usize) -> Fie
 
 fn choices(ui: &mut Ui, studio: &mut Studio) {
     let knobs = &mut studio.kept.knobs;
-    let accels =
-        AccelKind::ALL.into_iter().filter(|&accel| accel != AccelKind::Embree || cfg!(feature = "embree"));
+    let accels = AccelKind::BUILT.iter().copied();
     choice(ui, "Accelerator", &mut knobs.accel, accels, |accel| accel.name().into());
     choice(ui, "Precision", &mut knobs.precision, Precision::ALL, |precision| precision.name().into());
     choice(ui, "Sampler", &mut knobs.sampler, SamplerKind::ALL, |sampler| sampler.name().into());

@@ -4,11 +4,9 @@ use super::follow::Follow;
 use super::{Order, Purpose, Shared, Stage};
 use crate::error::Result;
 use crate::geometry::Geometry;
-use crate::math::Rgb;
 use crate::output::{Provenance, Rescue, Target, Wanted};
 use crate::picture::Destination;
 use crate::render::{Ended, Origin, Prepared, Recipe, Rendered, Settings, View, in_pool};
-use crate::scene::desc::MaterialKind;
 use crate::scene::edit::{self, Editable};
 use crate::scene::{self, Digest};
 use crate::world::World;
@@ -116,9 +114,8 @@ fn has_same_surfaces(a: &Editable, b: &Editable) -> bool {
 /// Whether the shapes of a scene compile to the same: a mesh that emits light gets triangles of its own.
 fn has_same_shapes(a: &Editable, b: &Editable) -> bool {
     let emits = |editable: &Editable| -> Vec<bool> {
-        let of_kind = |kind| matches!(kind, MaterialKind::Diffuse { emission, .. } if emission != Rgb::ZERO);
         let surfaces = editable.surfaces.iter();
-        surfaces.map(|surface| surface.as_ref().is_some_and(|surface| of_kind(surface.material()))).collect()
+        surfaces.map(|surface| surface.as_ref().is_some_and(|surface| surface.material().emits())).collect()
     };
     emits(a) == emits(b)
 }

@@ -19,7 +19,7 @@ pub enum SurfaceKind {
 }
 
 impl SurfaceKind {
-    /// All of them.
+    /// In the order of the list in the window.
     pub const ALL: [SurfaceKind; 4] =
         [SurfaceKind::Diffuse, SurfaceKind::Reflective, SurfaceKind::ClearCoat, SurfaceKind::Refractive];
 

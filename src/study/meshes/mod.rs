@@ -32,7 +32,7 @@ pub enum Family {
 }
 
 impl Family {
-    /// All of them.
+    /// In the order in which they are measured.
     pub const ALL: [Family; 8] = [
         Family::Sphere,
         Family::Scan,

@@ -106,15 +106,12 @@ pub fn run(
     check(options)?;
     let machine = Machine::here(frame.isa, frame.threads)?;
     let variants = grid.variants();
-    let configurations: Vec<Configuration> = (0..variants.len())
-        .flat_map(|variant| grid.samples.iter().map(move |&samples| Configuration { variant, samples }))
-        .collect();
+    let configurations = configurations(variants.len(), &grid.samples);
     let seeds = options.first_seed..options.first_seed + options.seeds;
     let shots = shots::take(world, camera, frame, (&variants, &configurations), seeds, tell)?;
     let pool = super::contender::Pools::new(frame.threads)?;
     let (truth, errors) = pool.all().install(|| judge(&variants, &shots, options));
-    let baseline = grid.samples.iter().position(|&samples| samples == BASELINE_SAMPLES);
-    let baseline = baseline.unwrap_or(grid.samples.len() - 1);
+    let baseline = baseline(&grid.samples);
     let analysis = analysis::Analysis {
         grid,
         variants: &variants,
@@ -146,6 +143,18 @@ pub fn run(
         pictures: shots.into_iter().map(|mut shots| shots.swap_remove(0).pixels).collect(),
         truth: truth.pixels,
     })
+}
+
+/// Every variant with every number of samples.
+fn configurations(variants: usize, samples: &[u64]) -> Vec<Configuration> {
+    let of = |variant| samples.iter().map(move |&samples| Configuration { variant, samples });
+    (0..variants).flat_map(of).collect()
+}
+
+/// The place of the samples of the row to which others are compared.
+fn baseline(samples: &[u64]) -> usize {
+    let usual = samples.iter().position(|&samples| samples == BASELINE_SAMPLES);
+    usual.unwrap_or(samples.len() - 1)
 }
 
 /// Refuses what can't be measured.
