@@ -18,6 +18,8 @@ pub(super) enum Event<'e> {
         #[serde(flatten)]
         job: JobRecord,
         requires: &'e Requires,
+        /// Of the scene.
+        warnings: Vec<DiagnosticRecord>,
     },
     /// Rendering goes on.
     Progress {
@@ -82,6 +84,8 @@ pub(super) struct Summary<'e> {
     error: Option<ErrorRecord>,
     #[serde(flatten)]
     counts: Counts,
+    /// Components of pixels that were written as the largest number that the picture can say.
+    cut_components: u64,
     rays: u64,
     #[serde(flatten)]
     seconds: Seconds,
@@ -185,6 +189,7 @@ impl<'e> Summary<'e> {
         job: &Job,
         requires: &'e Requires,
         rendered: &Rendered,
+        cut_components: u64,
         seconds: Seconds,
     ) -> Summary<'e> {
         let Rendered { film, counters, .. } = rendered;
@@ -196,6 +201,7 @@ impl<'e> Summary<'e> {
             noise_missed: job.settings.noise.is_some() && rendered.ended != Ended::Complete,
             error: rendered.error.as_ref().map(ErrorRecord::new),
             counts: Counts::new(rendered),
+            cut_components,
             rays: counters.rays,
             seconds,
             samples_per_second: per_second(rendered.samples(), seconds.render),
@@ -268,7 +274,7 @@ impl Event<'_> {
 }
 
 impl DiagnosticRecord {
-    fn new(diagnostic: &Diagnostic) -> DiagnosticRecord {
+    pub(super) fn new(diagnostic: &Diagnostic) -> DiagnosticRecord {
         let location = diagnostic.location.as_ref();
         DiagnosticRecord {
             severity: match diagnostic.severity {

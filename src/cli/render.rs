@@ -2,7 +2,7 @@
 
 use super::arguments::Job;
 use super::console::{digits, duration, say, with_prefix};
-use super::event::{self, Event, JobRecord, Seconds, Summary, per_second};
+use super::event::{self, DiagnosticRecord, Event, JobRecord, Seconds, Summary, per_second};
 use super::keeper::Keeper;
 use super::progress::Reporter;
 use super::saving::{self, Found};
@@ -62,6 +62,14 @@ impl Output {
         }
     }
 
+    /// See [`output::cut_components`]; none of a part, which keeps them.
+    fn cut_components(&self, rendered: &Rendered) -> u64 {
+        match self {
+            Output::Part(_) => 0,
+            Output::Picture(target, _) => output::cut_components(&rendered.film, target.picture().depth()),
+        }
+    }
+
     /// Writes what was rendered.
     fn write(&self, job: &Job, origin: &Origin, rendered: &Rendered) -> Result<()> {
         match self {
@@ -95,8 +103,8 @@ pub(super) fn run(job: &Job) -> anyhow::Result<u8> {
         guards.iter().for_each(say);
     }
     // The world has all it needs of the meshes.
-    let (camera, digest) = (scene.desc.camera.clone(), scene.digest);
-    drop(scene);
+    let (camera, digest, warnings) = (scene.desc.camera.clone(), scene.digest, scene.warnings);
+    drop(scene.desc);
     let recipe = Recipe::new(&job.scene, digest, &job.settings)?;
     let view = View::new(&world, &camera, job.settings.width, job.settings.height);
     let origin = Origin { recipe, view, brightest: world.brightest() };
@@ -113,12 +121,13 @@ pub(super) fn run(job: &Job) -> anyhow::Result<u8> {
         say(format_args!("going on after {} samples", state.samples()));
     }
     if job.json {
-        event::emit(&Event::Start { job: JobRecord::new(job), requires: &world.requires });
+        let warnings = warnings.iter().chain(&guards).map(DiagnosticRecord::new).collect();
+        event::emit(&Event::Start { job: JobRecord::new(job), requires: &world.requires, warnings });
     }
     if let Some(rendered) = done {
         say(format_args!("{} is there already, and complete", job.image.display()));
         let seconds = Seconds { load, build: compile, ..Seconds::default() };
-        return Ok(end(job, &world, &rendered, seconds));
+        return Ok(end(job, &world, &rendered, 0, seconds));
     }
 
     let reporter = Reporter::new(job);
@@ -134,7 +143,7 @@ pub(super) fn run(job: &Job) -> anyhow::Result<u8> {
     let seconds = Seconds { load, build, render: rendered.render_seconds, write: 0.0 };
     if cancelled && output.part().is_some() {
         unfinished(job, &keeper, &rendered)?;
-        return Ok(end(job, &world, &rendered, seconds));
+        return Ok(end(job, &world, &rendered, 0, seconds));
     }
     let (written, write) = timed(|| output.write(job, &origin, &rendered));
     written.map_err(|error| saving::rescue(job, &origin, &rendered, error))?;
@@ -145,13 +154,13 @@ pub(super) fn run(job: &Job) -> anyhow::Result<u8> {
 
     let seconds = Seconds { write, ..seconds };
     conclude(job, &rendered, seconds);
-    Ok(end(job, &world, &rendered, seconds))
+    Ok(end(job, &world, &rendered, output.cut_components(&rendered), seconds))
 }
 
-/// Tells programs how it ended; the exit code.
-fn end(job: &Job, world: &World, rendered: &Rendered, seconds: Seconds) -> u8 {
+/// Tells programs how it ended; the exit code. `cut` components of pixels were too large for the picture.
+fn end(job: &Job, world: &World, rendered: &Rendered, cut: u64, seconds: Seconds) -> u8 {
     if job.json {
-        let summary = Summary::new(job, &world.requires, rendered, seconds);
+        let summary = Summary::new(job, &world.requires, rendered, cut, seconds);
         let cancelled = rendered.ended == Ended::Cancelled;
         event::emit(&if cancelled { Event::Interrupted(summary) } else { Event::Done(summary) });
     }
@@ -193,6 +202,7 @@ pub(super) fn write_picture(
         exposure: job.exposure,
     };
     target.write(&provenance, rendered)?;
+    findings::report_cut(output::cut_components(&rendered.film, target.picture().depth()));
     if let Some(error_bars) = error_bars
         && !output::write_error_bars(&rendered.film, error_bars)?
     {

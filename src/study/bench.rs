@@ -120,12 +120,18 @@ pub fn mesh(name: String, desc: MeshDesc, options: &Options) -> Result<Rung> {
     Ok(measure(name, &geometry, &sets, options, &pools)?.0)
 }
 
+/// Width and height of the picture whose paths give the rays of a scene.
+pub fn scene_size(options: &Options) -> [u32; 2] {
+    let height = ((options.rays as f64 * 9.0 / 16.0).sqrt().round() as u32).max(1);
+    [(options.rays as u32).div_ceil(height), height]
+}
+
 /// Measures a scene with the rays of its own paths.
 pub fn scene(name: String, world: &World, camera: &CameraDesc, options: &Options) -> Result<Rung> {
     let pools = Pools::new(options.threads)?;
-    let height = ((options.rays as f64 * 9.0 / 16.0).sqrt().round() as u32).max(1);
+    let [width, height] = scene_size(options);
     let recording = Recording {
-        width: (options.rays as u32).div_ceil(height),
+        width,
         height,
         samples: 1,
         bounces: 8,

@@ -1,5 +1,6 @@
 //! The foot of the window: what is done, what it costs, where it leads, what there is to say.
 
+use crate::error::Diagnostic;
 use crate::gui::forecast::{costs, forecasts, share};
 use crate::gui::form::wrong_color;
 use crate::gui::session::{Stage, Status};
@@ -9,7 +10,7 @@ use eframe::egui::{ProgressBar, RichText, ScrollArea, Ui};
 
 pub(super) fn show(ui: &mut Ui, studio: &mut Studio) {
     let status = studio.session.status();
-    problems(ui, studio);
+    problems(ui, studio, &status);
     ui.horizontal_wrapped(|ui| {
         ui.label(stage(&status));
         if status.is_busy() && status.total > 0 {
@@ -36,8 +37,8 @@ pub(super) fn show(ui: &mut Ui, studio: &mut Studio) {
 }
 
 /// Errors and warnings of the scene, with their lines.
-fn problems(ui: &mut Ui, studio: &Studio) {
-    let diagnostics = &studio.document.diagnostics;
+fn problems(ui: &mut Ui, studio: &Studio, status: &Status) {
+    let diagnostics: Vec<&Diagnostic> = studio.document.diagnostics.iter().chain(&status.guards).collect();
     if diagnostics.is_empty() {
         return;
     }
