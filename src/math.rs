@@ -89,6 +89,22 @@ impl Bounds {
         (self.max - self.min).max_element()
     }
 
+    /// The axis of its longest side, the first of several.
+    pub fn longest_axis(self) -> usize {
+        let extent = self.max - self.min;
+        (0..3).fold(0, |best, axis| if extent[axis] > extent[best] { axis } else { best })
+    }
+
+    /// The box that is wider by `margin` on all sides.
+    pub fn padded(self, margin: f64) -> Bounds {
+        Bounds { min: self.min - margin, max: self.max + margin }
+    }
+
+    /// Whether both have a point in common.
+    pub fn touches(self, other: Bounds) -> bool {
+        self.min.cmple(other.max).all() && other.min.cmple(self.max).all()
+    }
+
     /// Whether nothing is in it.
     pub fn is_empty(self) -> bool {
         !(self.min.cmple(self.max).all())

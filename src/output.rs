@@ -48,6 +48,17 @@ pub fn picture((width, height): (u32, u32), light: &[f64], exposure: f64, depth:
     Picture { width, height, pixels, channels: Vec::new(), metadata: Metadata::default() }
 }
 
+/// How many components of a film's pixels are larger than a picture of this depth can say, and become the largest number
+/// there. None where what is brighter than white is white.
+pub fn cut_components(film: &Film, depth: Depth) -> u64 {
+    let most = match depth {
+        Depth::Eight | Depth::Sixteen => return 0,
+        Depth::Half => f16::MAX.to_f64(),
+        Depth::Float => f64::from(f32::MAX),
+    };
+    channels(film).filter(|&value| value > most).count() as u64
+}
+
 /// Writes the error of every pixel into an EXR: R the mean of its components, G the standard error of that, B half the width
 /// of the 95 % interval. Whether it could: the film needs samples in eight scrambles.
 ///

@@ -4,6 +4,7 @@ use super::arguments::{BenchJob, Subject};
 use super::console::say;
 use super::event::emit;
 use super::plot_file::PlotFile;
+use super::studied;
 use crate::error::{Error, Result};
 use crate::output::TextFile;
 use crate::render::available_bytes;
@@ -13,7 +14,6 @@ use crate::study::machine::Machine;
 use crate::study::meshes::Family;
 use crate::study::plot::Plot;
 use crate::study::table::{Figure, Table, counted, csv, grouped, short};
-use crate::world::World;
 use serde::Serialize;
 use std::io::{self, Write as _};
 
@@ -54,8 +54,7 @@ fn measure(job: &BenchJob, shown: &Shown<'_>) -> anyhow::Result<Vec<Rung>> {
             Ok(vec![rung])
         }
         Subject::Scene(path) => {
-            let scene = scene::load(path)?;
-            let world = World::compile(&scene.desc)?;
+            let (scene, world) = studied::load(path, bench::scene_size(options)[0], job.quiet)?;
             let name = path.to_string_lossy().into_owned();
             shown.tell(&name, super::describe::triangles(&scene.desc));
             let rung = bench::scene(name, &world, &scene.desc.camera, options)?;

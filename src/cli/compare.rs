@@ -3,17 +3,16 @@
 use super::arguments::CompareJob;
 use super::console::say;
 use super::event::emit;
+use super::studied;
 use crate::geometry::Hit;
 use crate::math::DVec3;
 use crate::output::TextFile;
-use crate::scene;
 use crate::study::compare::{self, Comparison, PictureDifference, Side};
 use crate::study::machine::Machine;
 use crate::study::rounds::{Spread, geometric_mean};
 use crate::study::table::{Figure, Table, counted, csv, grouped, short};
 use crate::study::tally::{Answer, Difference, Tally};
 use crate::study::verdict::Verdict;
-use crate::world::World;
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::io::{self, Write as _};
@@ -24,8 +23,7 @@ pub(super) const DIFFERENT: u8 = 4;
 /// Compares; returns the exit code.
 pub(super) fn run(job: &CompareJob) -> anyhow::Result<u8> {
     let file = job.csv.as_deref().map(TextFile::new).transpose()?;
-    let scene = scene::load(&job.scene)?;
-    let world = World::compile(&scene.desc)?;
+    let (scene, world) = studied::load(&job.scene, job.options.recording.width, job.quiet)?;
     let tell = |doing: &str| {
         if !job.quiet {
             say(format_args!("{doing} ..."));

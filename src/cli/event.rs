@@ -19,6 +19,8 @@ pub(super) enum Event<'e> {
         #[serde(flatten)]
         job: JobRecord,
         requires: &'e Requires,
+        /// Of the scene.
+        warnings: Vec<DiagnosticRecord>,
     },
     /// Rendering goes on.
     Progress {
@@ -83,6 +85,8 @@ pub(super) struct Summary<'e> {
     error: Option<ErrorRecord>,
     #[serde(flatten)]
     counts: Counts,
+    /// Components of pixels that were written as the largest number that the picture can say.
+    cut_components: u64,
     rays: u64,
     #[serde(flatten)]
     seconds: Seconds,
@@ -186,6 +190,7 @@ impl<'e> Summary<'e> {
         job: &Job,
         requires: &'e Requires,
         rendered: &Rendered,
+        cut_components: u64,
         seconds: Seconds,
     ) -> Summary<'e> {
         let Rendered { film, counters, .. } = rendered;
@@ -197,6 +202,7 @@ impl<'e> Summary<'e> {
             noise_missed: job.settings.noise.is_some() && rendered.ended != Ended::Complete,
             error: rendered.error.as_ref().map(ErrorRecord::new),
             counts: Counts::new(rendered),
+            cut_components,
             rays: counters.rays,
             seconds,
             samples_per_second: per_second(rendered.samples(), seconds.render),
@@ -269,7 +275,7 @@ impl Event<'_> {
 }
 
 impl DiagnosticRecord {
-    fn new(diagnostic: &Diagnostic) -> DiagnosticRecord {
+    pub(super) fn new(diagnostic: &Diagnostic) -> DiagnosticRecord {
         let location = diagnostic.location.as_ref();
         DiagnosticRecord {
             severity: match diagnostic.severity {

@@ -21,6 +21,16 @@ pub(super) fn report(job: &Job, rendered: &Rendered) {
     }
 }
 
+/// Says that components of pixels were too large for the picture's file, if any were: a fault, as others can't tell.
+pub(super) fn report_cut(components: u64) {
+    if components > 0 {
+        say(format_args!(
+            "warning: {components} components of pixels are brighter than the picture's numbers can say, and were \
+             written as the largest one"
+        ));
+    }
+}
+
 /// What is no fault, but may be seen in the picture.
 fn notes(rendered: &Rendered) -> Vec<String> {
     let counters = &rendered.counters;

@@ -23,6 +23,7 @@ mod progress;
 mod render;
 mod saving;
 mod scaling;
+mod studied;
 mod tradeoff;
 
 use crate::error::{Error, Result};

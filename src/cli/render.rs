@@ -2,12 +2,12 @@
 
 use super::arguments::Job;
 use super::console::{digits, duration, say, with_prefix};
-use super::event::{self, Event, JobRecord, Seconds, Summary, per_second};
+use super::event::{self, DiagnosticRecord, Event, JobRecord, Seconds, Summary, per_second};
 use super::keeper::Keeper;
 use super::progress::Reporter;
 use super::saving::{self, Found};
 use super::{describe, findings, interrupt};
-use crate::error::{Error, Result};
+use crate::error::{Diagnostic, Error, Result};
 use crate::film::PictureError;
 use crate::film::file::FilePlace;
 use crate::output::{self, Aov, Provenance, Target, same_file};
@@ -72,6 +72,14 @@ impl Output {
         }
     }
 
+    /// See [`output::cut_components`]; none of a part, which keeps them.
+    fn cut_components(&self, rendered: &Rendered) -> u64 {
+        match self {
+            Output::Part(_) => 0,
+            Output::Picture(target, _) => output::cut_components(&rendered.film, target.picture().depth()),
+        }
+    }
+
     /// Writes what was rendered.
     fn write(&self, job: &Job, origin: &Origin, rendered: &Rendered) -> Result<()> {
         match self {
@@ -94,20 +102,21 @@ pub(super) fn run(job: &Job) -> anyhow::Result<u8> {
     partial.extend(checkpoints.iter().map(|place| place.partial_path().to_path_buf()));
     interrupt::listen(partial)?;
 
-    let Subject { world, camera, origin, seconds } = &Subject::read(job, &output)?;
+    let Subject { world, camera, origin, warnings, seconds } = &Subject::read(job, &output)?;
     let found = saving::found(job, output.part(), origin)?;
     if let (Found::Begun(state), false) = (&found, job.quiet) {
         say(format_args!("going on after {} samples", state.samples()));
     }
     if job.json {
-        event::emit(&Event::Start { job: JobRecord::new(job), requires: &world.requires });
+        let warnings = warnings.iter().map(DiagnosticRecord::new).collect();
+        event::emit(&Event::Start { job: JobRecord::new(job), requires: &world.requires, warnings });
     }
     let state = match found {
         Found::Nothing => None,
         Found::Begun(state) => Some(*state),
         Found::Done(rendered) => {
             say(format_args!("{} is there already, and complete", job.image.display()));
-            return Ok(end(job, world, &rendered, *seconds));
+            return Ok(end(job, world, &rendered, 0, *seconds));
         }
     };
 
@@ -124,13 +133,13 @@ pub(super) fn run(job: &Job) -> anyhow::Result<u8> {
     let seconds = Seconds { build, render: rendered.render_seconds, ..*seconds };
     if rendered.ended == Ended::Cancelled && output.part().is_some() {
         unfinished(job, &keeper, &rendered)?;
-        return Ok(end(job, world, &rendered, seconds));
+        return Ok(end(job, world, &rendered, 0, seconds));
     }
     let (written, write) = timed(|| output.write(job, origin, &rendered));
     written.map_err(|error| saving::rescue(job, origin, &rendered, error))?;
     let seconds = Seconds { write, ..seconds };
     conclude(job, &rendered, seconds);
-    Ok(end(job, world, &rendered, seconds))
+    Ok(end(job, world, &rendered, output.cut_components(&rendered), seconds))
 }
 
 /// What is rendered, ready for it.
@@ -138,6 +147,8 @@ struct Subject {
     world: World,
     camera: CameraDesc,
     origin: Origin,
+    /// Of the scene and of what is rendered of it.
+    warnings: Vec<Diagnostic>,
     /// What it took to get here.
     seconds: Seconds,
 }
@@ -149,7 +160,9 @@ impl Subject {
         let scene = scene?;
         if let Some(path) = scene.files.iter().find(|path| output.replaces(path)) {
             let path = path.display();
-            return Err(Error::Usage(format!("{path} belongs to the scene: choose another name for what is written")));
+            return Err(Error::Usage(format!(
+                "{path} belongs to the scene: choose another name for what is written"
+            )));
         }
         if !job.quiet {
             scene.warnings.iter().for_each(say);
@@ -163,18 +176,20 @@ impl Subject {
             guards.iter().for_each(say);
         }
         // The description ends here with its meshes: the world has all it needs of them.
-        let (camera, digest) = (scene.desc.camera, scene.digest);
+        let (camera, digest, mut warnings) = (scene.desc.camera, scene.digest, scene.warnings);
+        warnings.extend(guards);
         let recipe = Recipe::new(&job.scene, digest, &job.settings)?;
         let view = View::new(&world, &camera, job.settings.width, job.settings.height);
         let origin = Origin { recipe, view, brightest: world.brightest() };
-        Ok(Subject { world, camera, origin, seconds: Seconds { load, build, ..Seconds::default() } })
+        let seconds = Seconds { load, build, ..Seconds::default() };
+        Ok(Subject { world, camera, origin, warnings, seconds })
     }
 }
 
-/// Tells programs how it ended; the exit code.
-fn end(job: &Job, world: &World, rendered: &Rendered, seconds: Seconds) -> u8 {
+/// Tells programs how it ended; the exit code. `cut` components of pixels were too large for the picture.
+fn end(job: &Job, world: &World, rendered: &Rendered, cut: u64, seconds: Seconds) -> u8 {
     if job.json {
-        let summary = Summary::new(job, &world.requires, rendered, seconds);
+        let summary = Summary::new(job, &world.requires, rendered, cut, seconds);
         let cancelled = rendered.ended == Ended::Cancelled;
         event::emit(&if cancelled { Event::Interrupted(summary) } else { Event::Done(summary) });
     }
@@ -216,6 +231,7 @@ pub(super) fn write_picture(
         exposure: job.exposure,
     };
     target.write(&provenance, rendered)?;
+    findings::report_cut(output::cut_components(&rendered.film, target.picture().depth()));
     if let Some(error_bars) = error_bars
         && !output::write_error_bars(&rendered.film, error_bars)?
     {

@@ -4,14 +4,13 @@ use super::arguments::TradeoffJob;
 use super::console::{duration, say};
 use super::event::emit;
 use super::plot_file::PlotFile;
+use super::studied;
 use crate::error::{Error, Result};
 use crate::output::TextFile;
-use crate::scene;
 use crate::study::machine::Machine;
 use crate::study::table::{Figure as RayFigure, counted};
 use crate::study::tradeoff::figures::{Figure, csv};
 use crate::study::tradeoff::{self, Options, Tradeoff, reference};
-use crate::world::World;
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::io::{self, Write as _};
@@ -26,8 +25,7 @@ pub(super) fn run(job: &TradeoffJob) -> anyhow::Result<u8> {
     let page = job.report.as_deref().map(page_file).transpose()?;
     let size = [job.frame.width, job.frame.height];
     let reference = job.reference.as_deref().map(|path| reference::read(path, size)).transpose()?;
-    let scene = scene::load(&job.scene)?;
-    let world = World::compile(&scene.desc)?;
+    let (scene, world) = studied::load(&job.scene, job.frame.width, job.quiet)?;
     let options = Options {
         frame: job.frame.clone(),
         grid: job.grid(&world.requires),

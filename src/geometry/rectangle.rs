@@ -202,7 +202,7 @@ impl Rectangle {
     }
 
     /// Lower left, lower right, upper right, upper left.
-    fn corners(&self) -> [DVec3; 4] {
+    pub(crate) fn corners(&self) -> [DVec3; 4] {
         let (half_u, half_v) = (self.edge_u * 0.5, self.edge_v * 0.5);
         [
             self.center - half_u - half_v,

@@ -13,6 +13,7 @@ use super::pick::{self, Pick, Tool};
 use super::saving::SavedScene;
 use super::session::{Frame, Order, Purpose, Session, Stage, Status};
 use super::settings::{Kept, own_folder};
+use crate::error::Diagnostic;
 use crate::render::{AccelKind, Settings};
 use crate::scene::edit::Editable;
 use std::path::{Path, PathBuf};
@@ -74,6 +75,8 @@ pub struct Studio {
     pub tool: Tool,
     /// What is to be read.
     pub notice: Option<Notice>,
+    /// What the guards of the scene said and has been put away.
+    pub known_guards: Vec<Diagnostic>,
     wake: Wake,
     history: History,
     version: u64,
@@ -113,6 +116,7 @@ impl Studio {
             view: View::default(),
             tool: Tool::default(),
             notice: None,
+            known_guards: Vec::new(),
             history: History::default(),
             version: 0,
             place: [640, 360],
@@ -390,6 +394,7 @@ impl Studio {
     pub fn put_messages_away(&mut self) {
         self.notice = None;
         self.document.diagnostics.clear();
+        self.known_guards = self.session.status().guards;
     }
 
     /// Says that something went wrong.

@@ -291,7 +291,7 @@ impl<'a, A: Accelerator> PathTracer<'a, A> {
             return Rgb::ZERO;
         }
         counters.rays += 1;
-        if self.accelerator.occluded(&ray, length, target) {
+        if !self.reaches(&ray, length, target) {
             return Rgb::ZERO;
         }
         if !ray.is_finite() {
@@ -300,6 +300,16 @@ impl<'a, A: Accelerator> PathTracer<'a, A> {
         }
         // Balance heuristic; written so that an infinite density of the material gives 0, not Inf / Inf.
         scattered * light.radiance * (1.0 / (light.pdf + pdf))
+    }
+
+    /// Whether a ray of this length meets a chosen point of `target`, as a path would: of surfaces that lie on one another
+    /// it meets one.
+    #[inline]
+    pub(super) fn reaches(&self, ray: &Ray, length: f64, target: PrimitiveId) -> bool {
+        if self.world.lights.shares_its_place(target) {
+            return self.accelerator.intersect(ray).is_some_and(|hit| hit.primitive == target);
+        }
+        !self.accelerator.occluded(ray, length, target)
     }
 
     /// Turns the path to a direction that the material chose. Whether it goes on.

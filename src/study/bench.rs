@@ -126,21 +126,21 @@ pub fn mesh(name: String, desc: MeshDesc, options: &Options) -> Result<Rung> {
     Ok(measure(name, &geometry, &sets, options, &pools)?.0)
 }
 
+/// Width and height of the picture whose paths give the rays of a scene.
+pub fn scene_size(options: &Options) -> [u32; 2] {
+    let height = ((options.rays as f64 * 9.0 / 16.0).sqrt().round() as u32).max(1);
+    [(options.rays as u32).div_ceil(height), height]
+}
+
 /// Measures a scene with the rays of its own paths.
 ///
 /// # Errors
 /// Threads that can't be started; an instruction set that the machine lacks; an accelerator that can't be built.
 pub fn scene(name: String, world: &World, camera: &CameraDesc, options: &Options) -> Result<Rung> {
     let pools = Pools::new(options.threads)?;
-    let height = ((options.rays as f64 * 9.0 / 16.0).sqrt().round() as u32).max(1);
-    let recording = Recording {
-        width: (options.rays as u32).div_ceil(height),
-        height,
-        samples: 1,
-        bounces: 8,
-        rays: options.rays,
-        seed: options.seed,
-    };
+    let [width, height] = scene_size(options);
+    let recording =
+        Recording { width, height, samples: 1, bounces: 8, rays: options.rays, seed: options.seed };
     let mut sets = pools.all().install(|| {
         let recorder = Bvh::build(&world.geometry, &build_options(Precision::Exact, options.isa))?;
         Ok(rays_of_paths(world, camera, &recorder, &recording))

@@ -6,6 +6,7 @@
 //! objects, wherever the scene lies.
 
 mod camera;
+mod coincident;
 mod compile;
 mod cone;
 mod environment_map;

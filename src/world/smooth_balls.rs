@@ -1,6 +1,6 @@
 //! The balls by way of which light is sought.
 
-use super::World;
+use super::{World, coincident};
 use crate::geometry::{Ball, Shape};
 use crate::material::Material;
 use crate::math::Rgb;
@@ -22,7 +22,8 @@ pub(crate) struct SmoothBall {
 pub(crate) const MOST_SMOOTH_BALLS: usize = 16;
 
 impl World {
-    /// The balls by way of which light is sought; none if there are no lights to find, or more than
+    /// The balls by way of which light is sought, but for those that lie on another one, which paths may meet instead; none
+    /// if there are no lights to find, or more than
     /// [`MOST_SMOOTH_BALLS`].
     pub(crate) fn smooth_balls(&self) -> Vec<SmoothBall> {
         if self.lights.count() == 0 {
@@ -42,7 +43,11 @@ impl World {
             };
             Some(SmoothBall { ball, solid: index, color, ratio })
         });
-        let balls: Vec<SmoothBall> = smooth.take(MOST_SMOOTH_BALLS + 1).collect();
-        if balls.len() > MOST_SMOOTH_BALLS { Vec::new() } else { balls }
+        let mut balls: Vec<SmoothBall> = smooth.take(MOST_SMOOTH_BALLS + 1).collect();
+        if balls.len() > MOST_SMOOTH_BALLS {
+            return Vec::new();
+        }
+        balls.retain(|b| !coincident::lies_on_another_ball(&self.geometry, b.solid, &b.ball));
+        balls
     }
 }

@@ -69,3 +69,77 @@ fn a_limit_that_is_no_positive_number_is_refused() {
         folder().run(&format!("floor.yaml 8 6 1 3 a.png --clamp {limit}")).fails(2, "a finite number > 0");
     }
 }
+
+/// A light that fills the picture, of this strength.
+fn bright(strength: &str) -> Folder {
+    let folder = Folder::new();
+    let lamp = BALL.replace("Type: Diffuse", &format!("Type: Diffuse\n        EmissionStrength: {strength}"));
+    folder.write("bright.yaml", &lamp.replace("Radius: 1", "Radius: 8"));
+    folder
+}
+
+#[test]
+fn light_beyond_the_numbers_of_a_picture_is_said() {
+    let said = "192 components of pixels are brighter than the picture's numbers can say";
+    for (strength, image, cut) in [
+        ("1e39", "a.exr", 192),
+        ("1e38", "a.exr", 0),
+        ("65600", "a.exr --depth half", 192),
+        ("65504", "a.exr --depth half", 0),
+        // Where all that is brighter than white is white, nothing is lost that was asked for.
+        ("1e39", "a.png", 0),
+    ] {
+        let folder = bright(strength);
+        let ended = folder.run(&format!("bright.yaml 8 8 1 1 {image} --json"));
+        ended.succeeds();
+        let last: Value = serde_json::from_str(ended.stdout.lines().last().expect("a line")).expect("JSON");
+        assert_eq!(last["cut_components"].as_u64(), Some(cut), "{strength} {image}");
+        assert_eq!(ended.stderr.matches(said).count(), usize::from(cut > 0), "{}", ended.stderr);
+    }
+}
+
+/// Two balls on one place.
+fn doubled() -> Folder {
+    let folder = Folder::new();
+    let object = &BALL[BALL.find("  - Object:").expect("an object")..];
+    folder.write("doubled.yaml", &format!("{BALL}{object}"));
+    folder
+}
+
+#[test]
+fn warnings_of_a_scene_are_in_the_first_event() {
+    let ended = doubled().run("doubled.yaml 8 6 1 1 a.exr --json");
+    ended.succeeds();
+    let first: Value = serde_json::from_str(ended.stdout.lines().next().expect("a line")).expect("JSON");
+    let warnings = first["warnings"].as_array().expect("a list");
+    assert_eq!(warnings.len(), 1, "{warnings:?}");
+    assert_eq!(warnings[0]["severity"], "warning");
+    assert!(warnings[0]["message"].as_str().is_some_and(|text| text.contains("lies on the one at")));
+    assert!(warnings[0]["line"].as_u64().is_some());
+    let ended = folder().run("floor.yaml 8 6 1 1 a.exr --json");
+    let first: Value = serde_json::from_str(ended.stdout.lines().next().expect("a line")).expect("JSON");
+    assert_eq!(first["warnings"].as_array().map(Vec::len), Some(0));
+}
+
+/// A camera whose direction drowns in its digits makes no picture, and no study.
+#[test]
+fn studies_refuse_what_a_render_refuses_and_say_what_it_warns_of() {
+    let folder = doubled();
+    let lost = BALL.replace("[0, 0, 0]", "[1e16, 0, 0]").replace("[5, 0, 0]\n  Fov", "[1e16, 0, 2]\n  Fov");
+    folder.write("lost.yaml", &lost);
+    folder.run("lost.yaml 8 6 1 1 a.exr").fails(3, "the camera's direction is known to within");
+    for study in [
+        "tradeoff SCENE --size 8x6 --seeds 2 --samples 1,2 --bounces 2 --accel native --threads 1",
+        "compare SCENE --size 8x6 --samples 1 --rays 100 --rounds 1 --threads 1",
+        "bench SCENE --rays 1000 --rounds 1 --threads 1",
+    ] {
+        if cfg!(not(feature = "embree")) && study.starts_with("compare") {
+            continue;
+        }
+        let lost = folder.run(&study.replace("SCENE", "lost.yaml"));
+        lost.fails(3, "the camera's direction is known to within");
+        let doubled = folder.run(&study.replace("SCENE", "doubled.yaml"));
+        doubled.succeeds();
+        assert!(doubled.stderr.contains("lies on the one at"), "{study}: {}", doubled.stderr);
+    }
+}

@@ -250,6 +250,65 @@ fn a_camera_on_or_in_an_opaque_body_is_warned_of() {
 }
 
 #[test]
+fn a_camera_on_a_rectangle_or_a_mesh_is_warned_of() {
+    let on = "the camera is on the surface of this object (0.0e0 above it): rounding decides what it sees";
+    let lens = "the camera's lens, with a radius of 5.0e-1, reaches through the surface of this object";
+    // An open mesh, of which the camera is neither inside nor outside.
+    let corners = vec![[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [0.0, 1.0, 0.0]];
+    let sheet = mesh(corners, vec![[0, 1, 2]]);
+    let twice = [sheet.clone(), placed(sheet.clone(), DVec3::Z * 9.0, 1.0, DVec3::ZERO)];
+    let far = ball(DVec3::X * 20.0, 1.0);
+    for shapes in [vec![square(DVec3::ZERO, 2.0), far.clone()], vec![sheet, far], twice.to_vec()] {
+        let mut desc = seen(shapes);
+        desc.camera.position = DVec3::new(0.25, 0.125, 0.0);
+        desc.camera.looking_at = DVec3::X * 5.0;
+        assert_said(&desc, &[(false, Some(1), on)]);
+        // Above it, and in its plane beside it.
+        desc.camera.position.z = 0.25;
+        assert_said(&desc, &[]);
+        desc.camera.aperture = ApertureDesc::Radius(0.5);
+        assert_said(&desc, &[(false, Some(1), lens)]);
+        desc.camera.position = DVec3::new(0.0, 1.75, 0.0);
+        assert_said(&desc, &[]);
+    }
+}
+
+#[test]
+fn surfaces_on_one_another_are_warned_of() {
+    let lies = "the object lies on the one at scene.yaml:1:1: where both are, the one that comes first in the file is \
+                seen, or, if they are not equal, the one that roundings bring nearer";
+    let floor = square(DVec3::ZERO, 4.0);
+    let block = cuboid(DVec3::ZERO, DVec3::splat(2.0), DVec3::new(0.0, 0.0, 30.0));
+    for (below, above) in [
+        (floor.clone(), floor.clone()),
+        (floor.clone(), square(DVec3::new(1.5, 1.5, 1e-18), 4.0)),
+        (
+            floor.clone(),
+            ShapeDesc::Rectangle {
+                position: DVec3::ZERO,
+                width: 1.0,
+                height: 2.0,
+                rotation: DVec3::new(0.0, -90.0, 20.0),
+            },
+        ),
+        (ball(DVec3::Z, 1.0), ball(DVec3::new(1e-18, 0.0, 1.0), 1.0)),
+        (block.clone(), block),
+    ] {
+        assert_said(&seen(vec![below, above]), &[(false, Some(2), lies)]);
+    }
+    // Side by side, a little above, across, on another; a box that stands on a floor.
+    for other in [
+        square(DVec3::X * 4.0, 4.0),
+        square(DVec3::Z * 1e-9, 4.0),
+        ShapeDesc::Rectangle { position: DVec3::ZERO, width: 4.0, height: 4.0, rotation: DVec3::ZERO },
+        ball(DVec3::Z, 1.0),
+        cuboid(DVec3::Z, DVec3::splat(2.0), DVec3::ZERO),
+    ] {
+        assert_said(&seen(vec![floor.clone(), other]), &[]);
+    }
+}
+
+#[test]
 fn a_camera_in_a_closed_opaque_mesh_is_warned_of() {
     let dark =
         "the camera is inside this object, which is opaque and has no light in it: the picture is black";

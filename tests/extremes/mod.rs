@@ -2,6 +2,7 @@
 
 mod accumulation;
 mod balls;
+mod coincident;
 mod degenerate;
 mod floor;
 mod gaps;

@@ -1,7 +1,7 @@
 //! What went wrong, over the foot of the picture: beside it, it would take place from the picture, whose preview would start
 //! anew.
 
-use crate::error::Severity;
+use crate::error::{Diagnostic, Severity};
 use crate::gui::form::wrong_color;
 use crate::gui::studio::Studio;
 use eframe::egui::{Align2, Area, Context, Frame, Id, Label, Rect, RichText, ScrollArea, Ui, vec2};
@@ -15,7 +15,10 @@ const MOST: usize = 100;
 /// Draws the notice of an error, and the errors and warnings of the scene with their lines.
 pub(super) fn show(ctx: &Context, place: Rect, studio: &mut Studio) {
     let error = studio.notice.as_ref().filter(|notice| notice.is_error).map(|notice| notice.text.clone());
-    if error.is_none() && studio.document.diagnostics.is_empty() {
+    let mut diagnostics = studio.document.diagnostics.clone();
+    diagnostics
+        .extend(studio.session.status().guards.into_iter().filter(|one| !studio.known_guards.contains(one)));
+    if error.is_none() && diagnostics.is_empty() {
         return;
     }
     let corner = place.left_bottom() + vec2(6.0, -6.0);
@@ -32,14 +35,14 @@ pub(super) fn show(ctx: &Context, place: Rect, studio: &mut Studio) {
                 if let Some(error) = error {
                     ui.add(Label::new(RichText::new(error).color(wrong_color(ui.visuals()))).wrap());
                 }
-                diagnostics(ui, studio);
+                show_all(ui, &diagnostics);
             });
         });
     });
 }
 
-fn diagnostics(ui: &mut Ui, studio: &Studio) {
-    for diagnostic in studio.document.diagnostics.iter().take(MOST) {
+fn show_all(ui: &mut Ui, diagnostics: &[Diagnostic]) {
+    for diagnostic in diagnostics.iter().take(MOST) {
         let text = RichText::new(diagnostic.to_string()).monospace();
         let is_error = diagnostic.severity == Severity::Error;
         let text = if is_error { text.color(wrong_color(ui.visuals())) } else { text };

@@ -10,6 +10,7 @@ mod work;
 pub use frame::{BlockErrors, Frame, Look};
 
 use super::document::Loaded;
+use crate::error::Diagnostic;
 use crate::output::Wanted;
 use crate::render::{Ended, Outlook, Settings};
 use crate::scene::edit::Editable;
@@ -82,6 +83,8 @@ pub struct Status {
     pub is_file_refused: bool,
     /// The file that the picture was written to.
     pub written: Option<PathBuf>,
+    /// What there is to say of the scene's numbers: warnings, or why it is not rendered.
+    pub guards: Vec<Diagnostic>,
 }
 
 impl Status {

@@ -1,8 +1,8 @@
 //! The thread that takes orders.
 
 use super::follow::Follow;
-use super::{Order, Purpose, Shared, Stage};
-use crate::error::Result;
+use super::{Order, Purpose, Shared, Stage, Status};
+use crate::error::{Diagnostic, Error, Result};
 use crate::geometry::Geometry;
 use crate::output::{Provenance, Rescue, Target, Wanted};
 use crate::picture::Destination;
@@ -26,6 +26,8 @@ pub(super) struct Task {
     pub(super) world: Arc<World>,
     /// Of the scene with its edits; only a final render needs it.
     digest: Option<Digest>,
+    /// Warnings of the world, as it was when its shapes or materials last changed.
+    guards: Vec<Diagnostic>,
 }
 
 /// Takes orders until the end.
@@ -67,9 +69,20 @@ fn next_task(shared: &Shared, last: Option<&Task>) -> Option<Task> {
         let (job, order) = shared.next()?;
         (shared.notify)();
         match compile(job, order, last) {
-            Ok(task) => return Some(task),
-            Err(error) => shared.tell(job, |status| status.stage = Stage::Failed(error.to_string())),
+            Ok(task) => {
+                shared.tell(job, |status| status.guards.clone_from(&task.guards));
+                return Some(task);
+            }
+            Err(error) => shared.tell(job, |status| fail(status, error)),
         }
+    }
+}
+
+/// The order can't be rendered.
+fn fail(status: &mut Status, error: Error) {
+    status.stage = Stage::Failed(error.to_string());
+    if let Error::Scene(diagnostics) = error {
+        status.guards = diagnostics;
     }
 }
 
@@ -83,8 +96,9 @@ fn compile(job: u64, order: Order, last: Option<&Task>) -> Result<Task> {
         && let Some(last) = last
         && has_same_surfaces(&last.order.editable, editable)
     {
-        let world = Arc::clone(&last.world);
-        return Ok(Task { job, order, world, digest: None });
+        // Not asked again while the camera moves: that is a look at every triangle.
+        let (world, guards) = (Arc::clone(&last.world), last.guards.clone());
+        return Ok(Task { job, order, world, digest: None, guards });
     }
     let is_edited = **editable != loaded.editable;
     let (desc, digest) = if is_final && is_edited {
@@ -98,12 +112,13 @@ fn compile(job: u64, order: Order, last: Option<&Task>) -> Result<Task> {
         (desc, (!is_edited).then_some(loaded.scene.digest))
     };
     let mut world = in_pool(&order.settings, || World::compile(&desc))?;
+    let guards = in_pool(&order.settings, || world.guards(&desc, order.settings.width))?;
     if let Some(last) = last
         && has_same_shapes(&last.order.editable, editable)
     {
         world.geometry = Arc::clone(&last.world.geometry);
     }
-    Ok(Task { job, order, world: Arc::new(world), digest })
+    Ok(Task { job, order, world: Arc::new(world), digest, guards })
 }
 
 /// Whether two states differ in their cameras at most.

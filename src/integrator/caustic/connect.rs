@@ -53,7 +53,7 @@ impl<A: Accelerator> PathTracer<'_, A> {
             let arriving = scattered * radiance * found.factor(&choice, &end, cosine, pdf);
             let mut clear = |ray: &Ray, length: f64, target: PrimitiveId| {
                 counters.rays += 1;
-                ray.is_finite() && !self.accelerator.occluded(ray, length, target)
+                ray.is_finite() && self.reaches(ray, length, target)
             };
             let free = clear(&ray, length, points[0].primitive)
                 && points.windows(2).all(|ends| {

@@ -8,6 +8,7 @@ use crate::math::{Bounds, DVec3, EPSILON, Rgb};
 use crate::scene::desc::{ObjectDesc, SceneDesc};
 use crate::world::World;
 use crate::world::compile::LARGEST;
+use rayon::prelude::*;
 use std::ops::Range;
 
 pub(super) fn check(world: &World, desc: &SceneDesc, width: u32) -> Vec<Diagnostic> {
@@ -30,6 +31,9 @@ pub(super) fn check(world: &World, desc: &SceneDesc, width: u32) -> Vec<Diagnost
         } else if height < 0.0 && is_dark_inside(world, solid.object, world.geometry.solid_bounds(index)) {
             found.push(in_the_dark(object));
         }
+    }
+    for (object, height) in meshes_at(world, position, reach) {
+        found.extend(desc.objects.get(object as usize).map(|object| on_the_surface(object, height, reach)));
     }
     let dark = dark_meshes_around(world, position);
     found.extend(dark.into_iter().filter_map(|object| desc.objects.get(object as usize)).map(in_the_dark));
@@ -100,7 +104,7 @@ fn lens(world: &World, desc: &SceneDesc) -> Option<Diagnostic> {
     (radius > focus).then(|| diagnostic(Severity::Warning, None, message, help))
 }
 
-/// How far a point is outside of a body; negative inside, `None` for shapes without inside.
+/// How far a point is outside of a body, or from a rectangle; negative inside, `None` of instances.
 fn height_above(solid: &Solid, p: DVec3) -> Option<f64> {
     match solid.shape {
         Shape::Ball(ball) => Some((p - ball.center).length() - ball.radius),
@@ -109,8 +113,62 @@ fn height_above(solid: &Solid, p: DVec3) -> Option<f64> {
             let outside = beyond.max(DVec3::ZERO).length();
             Some(if outside > 0.0 { outside } else { beyond.max_element() })
         }
-        Shape::Rectangle(_) | Shape::Instance(_) => None,
+        Shape::Rectangle(rectangle) => {
+            let [a, b, c, d] = rectangle.corners();
+            Some(distance_to_triangle(p, [a, b, c]).min(distance_to_triangle(p, [a, c, d])))
+        }
+        Shape::Instance(_) => None,
     }
+}
+
+/// The objects of the meshes that a point is on, and how far it is from them at most: within `reach`, or what the corners
+/// were moved by when they were rounded.
+fn meshes_at(world: &World, p: DVec3, reach: f64) -> Vec<(u32, f64)> {
+    let geometry = &world.geometry;
+    let look = |space: &MeshSpace, p: DVec3, triangles: Range<u32>, reach: f64| {
+        let (local, reach) = (space.frame.to_local(p), reach * space.frame.scale);
+        let distance = |triangle: u32| {
+            let corners = space.corners(triangle);
+            let around = corners.into_iter().fold(Bounds::EMPTY, Bounds::with_point).padded(reach);
+            let is_near = around.touches(Bounds { min: local, max: local });
+            if is_near { distance_to_triangle(local, corners) } else { f64::INFINITY }
+        };
+        let all = triangles.into_par_iter().with_min_len(4096).map(distance);
+        let nearest = all.reduce(|| f64::INFINITY, f64::min);
+        (nearest <= reach).then_some(nearest / space.frame.scale)
+    };
+    let in_world = geometry.world_spaces().flat_map(|(_, space)| {
+        space.mesh_ranges().filter_map(move |(mesh, triangles)| {
+            Some((mesh.object, look(space, p, triangles, reach.max(mesh.rounding))?))
+        })
+    });
+    let instances = geometry.solids.iter().filter_map(|solid| {
+        let Shape::Instance(instance) = &solid.shape else { return None };
+        let space = geometry.space_of(instance);
+        let (mesh, triangles) = space.mesh_ranges().next()?;
+        let distance =
+            look(space, instance.in_mesh(p), triangles, (reach / instance.scale).max(mesh.rounding))?;
+        Some((solid.object, distance * instance.scale))
+    });
+    in_world.chain(instances).collect()
+}
+
+/// The distance of a point from a triangle.
+fn distance_to_triangle(p: DVec3, corners: [DVec3; 3]) -> f64 {
+    let [a, b, c] = corners;
+    let normal = (b - a).cross(c - a).normalize_or_zero();
+    let edges = [(a, b), (b, c), (c, a)];
+    let is_over = edges.iter().all(|&(from, to)| (to - from).cross(p - from).dot(normal) >= 0.0);
+    if is_over && normal != DVec3::ZERO {
+        return (p - a).dot(normal).abs();
+    }
+    let to_edge = |&(from, to): &(DVec3, DVec3)| {
+        let along = to - from;
+        let length2 = along.length_squared();
+        let share = if length2 > 0.0 { ((p - from).dot(along) / length2).clamp(0.0, 1.0) } else { 0.0 };
+        (p - from - along * share).length()
+    };
+    edges.iter().map(to_edge).fold(f64::INFINITY, f64::min)
 }
 
 fn on_the_surface(object: &ObjectDesc, height: f64, reach: f64) -> Diagnostic {

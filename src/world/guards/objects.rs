@@ -5,7 +5,7 @@ use crate::error::{Diagnostic, Severity};
 use crate::geometry::{MeshEntry, MeshSpace, Shape};
 use crate::math::{Bounds, DVec3};
 use crate::scene::desc::{ObjectDesc, SceneDesc, ShapeDesc};
-use crate::world::World;
+use crate::world::{World, coincident};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -32,6 +32,7 @@ pub(super) fn check(world: &World, desc: &SceneDesc) -> Vec<Diagnostic> {
     }
     found.extend(mangled_triangles(world, desc));
     found.extend(against_the_coarsest(&placed));
+    found.extend(on_one_another(world, desc));
     found.sort_by_key(|(index, _)| *index);
     found.into_iter().map(|(_, diagnostic)| diagnostic).collect()
 }
@@ -204,10 +205,8 @@ fn against_the_coarsest(placed: &[Placed<'_>]) -> Vec<(u32, Diagnostic)> {
     let mut coarsest: Vec<&Placed<'_>> = placed.iter().collect();
     coarsest.sort_by(|a, b| b.error.total_cmp(&a.error));
     coarsest.truncate(COARSEST);
-    let touch = |object: &Placed<'_>, coarse: &Placed<'_>| {
-        let (a, b) = (object.bounds, coarse.bounds);
-        a.min.cmple(b.max + coarse.error).all() && b.min.cmple(a.max + coarse.error).all()
-    };
+    let touch =
+        |object: &Placed<'_>, coarse: &Placed<'_>| object.bounds.touches(coarse.bounds.padded(coarse.error));
     placed
         .iter()
         .filter_map(|object| {
@@ -227,4 +226,19 @@ fn against_the_coarsest(placed: &[Placed<'_>]) -> Vec<(u32, Diagnostic)> {
             Some((object.index, diagnostic(Severity::Warning, Some(&object.desc.location), message, help)))
         })
         .collect()
+}
+
+/// Objects that lie on others, so that it does not show in the file what is seen.
+fn on_one_another(world: &World, desc: &SceneDesc) -> Vec<(u32, Diagnostic)> {
+    let said = |(later, first): (u32, u32)| {
+        let (object, under) = (desc.objects.get(later as usize)?, desc.objects.get(first as usize)?);
+        let message = format!(
+            "the object lies on the one at {}: where both are, the one that comes first in the file is seen, or, if \
+             they are not equal, the one that roundings bring nearer",
+            under.location
+        );
+        let help = "move one of them, or leave one out";
+        Some((later, diagnostic(Severity::Warning, Some(&object.location), message, help)))
+    };
+    coincident::pairs(&world.geometry).into_iter().filter_map(said).collect()
 }

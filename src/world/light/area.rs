@@ -47,14 +47,14 @@ enum LightShape {
         rectangle: Rectangle,
         pane: Pane,
     },
-    /// Triangles of a space from `first` on, chosen by area.
+    /// Triangles of a space, chosen by area.
     FewTriangles {
         space: u32,
-        first: u32,
+        triangles: Vec<u32>,
         area: f64,
         table: AliasTable,
     },
-    /// The same, chosen by the light that they may bring.
+    /// Triangles of a space from `first` on, chosen by the light that they may bring.
     Triangles {
         space: u32,
         first: u32,
@@ -106,32 +106,43 @@ impl AreaLight {
         })
     }
 
-    /// The light of a mesh: some triangles of the space `space`.
-    pub(super) fn of_mesh(mesh: &MeshSpace, space: u32, triangles: Range<u32>, radiance: Rgb) -> AreaLight {
+    /// The light of a mesh: those of some triangles of the space `space` that are not `hidden`; `None` if all are.
+    pub(super) fn of_mesh(
+        mesh: &MeshSpace,
+        space: u32,
+        triangles: Range<u32>,
+        radiance: Rgb,
+        hidden: impl Fn(u32) -> bool,
+    ) -> Option<AreaLight> {
         let first = triangles.start;
-        let items: Vec<TreeItem> = triangles
-            .map(|index| {
-                let [a, b, c] = mesh.corners(index).map(|corner| mesh.frame.to_world(corner));
-                let bounds = [a, b, c].into_iter().fold(Bounds::EMPTY, Bounds::with_point);
-                TreeItem { bounds, power: 0.5 * (b - a).cross(c - a).length() }
-            })
-            .collect();
+        let item = |index: u32| {
+            let [a, b, c] = mesh.corners(index).map(|corner| mesh.frame.to_world(corner));
+            let bounds = [a, b, c].into_iter().fold(Bounds::EMPTY, Bounds::with_point);
+            let area = if hidden(index) { 0.0 } else { 0.5 * (b - a).cross(c - a).length() };
+            TreeItem { bounds, power: area }
+        };
+        let items: Vec<TreeItem> = triangles.clone().map(item).collect();
+        let seen: Vec<u32> = triangles.filter(|&index| !hidden(index)).collect();
+        if seen.is_empty() {
+            return None;
+        }
         let bounds = items.iter().fold(Bounds::EMPTY, |bounds, item| bounds.union(item.bounds));
         let areas: Vec<f64> = items.iter().map(|item| item.power).collect();
         let area: f64 = areas.iter().sum();
-        let shape = if items.len() <= WEIGHED {
-            LightShape::FewTriangles { space, first, area, table: AliasTable::new(&areas) }
+        let shape = if seen.len() <= WEIGHED {
+            let areas: Vec<f64> = seen.iter().map(|&index| areas[(index - first) as usize]).collect();
+            LightShape::FewTriangles { space, triangles: seen, area, table: AliasTable::new(&areas) }
         } else {
             LightShape::Triangles { space, first, areas, tree: LightTree::new(&items) }
         };
-        AreaLight {
+        Some(AreaLight {
             radiance,
             shape,
             power: luminance(radiance) * area,
             bounds,
             center: bounds.center(),
             bounding_radius: ((bounds.max - bounds.min) * 0.5).length(),
-        }
+        })
     }
 
     /// As a tree over lights sees it.
@@ -179,9 +190,9 @@ impl AreaLight {
                 let point = geometry.solid_point(*solid, cuboid.center, offset, rectangle.normal);
                 Some((point, seen.pdf(face, point.position - p)))
             }
-            LightShape::FewTriangles { space, first, area, table } => {
+            LightShape::FewTriangles { space, triangles, area, table } => {
                 let (index, _, u0) = table.sample(u[0])?;
-                let point = triangle_point(geometry, *space, first + index, [u0, u[1]]);
+                let point = triangle_point(geometry, *space, triangles[index as usize], [u0, u[1]]);
                 (point.primitive != at.point.primitive).then(|| (point, area_pdf(*area, &point, p)))
             }
             LightShape::Triangles { space, first, areas, tree } => {

@@ -8,8 +8,9 @@ mod tree;
 pub use area::Receiver;
 pub use tree::{LightTree, TreeItem};
 
+use super::coincident::Coincidences;
 use super::sky::Sky;
-use crate::geometry::{Geometry, Hit, SurfacePoint};
+use crate::geometry::{Geometry, Hit, PrimitiveId, SurfacePoint};
 use crate::math::{DVec3, Rgb};
 use area::AreaLight;
 
@@ -43,6 +44,7 @@ pub struct Lights {
     sky_share: f64,
     /// Chooses when there are too many lights to weigh each one at every point.
     tree: LightTree,
+    coincidences: Coincidences,
 }
 
 /// Up to this many lights, or triangles of a light, are weighed one by one; beyond, a tree does.
@@ -50,8 +52,9 @@ const WEIGHED: usize = 16;
 
 impl Lights {
     /// The lights among the objects; `emission` holds the radiance that each object emits. A constant sky is left to
-    /// the sampling of materials.
+    /// the sampling of materials, and so is what another surface hides that is equal and comes first.
     pub(super) fn new(geometry: &Geometry, emission: &[Rgb], sky: &Sky) -> Lights {
+        let coincidences = Coincidences::of(geometry, |object| emission[object as usize] != Rgb::ZERO);
         let mut lights = Vec::new();
         let mut of_object = vec![u32::MAX; emission.len()];
         let mut add = |object: u32, light: AreaLight| {
@@ -61,6 +64,7 @@ impl Lights {
         for (index, solid) in geometry.solids.iter().enumerate() {
             let radiance = emission[solid.object as usize];
             if radiance != Rgb::ZERO
+                && !coincidences.hides(PrimitiveId::solid(index as u32))
                 && let Some(light) = AreaLight::of_solid(geometry, index as u32, radiance)
             {
                 add(solid.object, light);
@@ -69,8 +73,11 @@ impl Lights {
         for (space, mesh) in geometry.world_spaces() {
             for (entry, triangles) in mesh.mesh_ranges() {
                 let radiance = emission[entry.object as usize];
-                if radiance != Rgb::ZERO {
-                    add(entry.object, AreaLight::of_mesh(mesh, space, triangles, radiance));
+                let hidden = |index| coincidences.hides(PrimitiveId::triangle(space, index));
+                if radiance != Rgb::ZERO
+                    && let Some(light) = AreaLight::of_mesh(mesh, space, triangles, radiance, hidden)
+                {
+                    add(entry.object, light);
                 }
             }
         }
@@ -83,10 +90,10 @@ impl Lights {
             (true, false) => SKY_SHARE,
             (false, _) => 0.0,
         };
-        Lights { lights, of_object, sky_share, tree: LightTree::new(&items) }
+        Lights { lights, of_object, sky_share, tree: LightTree::new(&items), coincidences }
     }
 
-    /// Number of objects that emit.
+    /// Number of objects that emit and can be met.
     pub fn count(&self) -> usize {
         self.lights.len()
     }
@@ -137,7 +144,7 @@ impl Lights {
     /// Density per solid angle with which [`Lights::sample_area`] would have chosen a point of an emitting object.
     pub fn pdf_area(&self, at: &Receiver, hit: &Hit, point: &SurfacePoint) -> f64 {
         let light = self.of_object[hit.object as usize] as usize;
-        if light >= self.lights.len() {
+        if light >= self.lights.len() || self.coincidences.hides(hit.primitive) {
             return 0.0;
         }
         self.lights[light].pdf(at, point, hit.part) * self.probability(at, light)
@@ -146,6 +153,13 @@ impl Lights {
     /// Density per solid angle with which [`Lights::sample`] would have chosen a point of an emitting object.
     pub fn pdf_surface(&self, at: &Receiver, hit: &Hit, point: &SurfacePoint) -> f64 {
         self.pdf_area(at, hit, point) * (1.0 - self.sky_share)
+    }
+
+    /// Whether a primitive that was chosen shares some of its place with another surface, so that only the closest hit of
+    /// a ray tells whether it is met. Else it is met where nothing is in the way.
+    #[inline]
+    pub fn shares_its_place(&self, primitive: PrimitiveId) -> bool {
+        self.coincidences.shares(primitive)
     }
 
     /// Density per solid angle with which [`Lights::sample`] would have chosen a direction of the sky.

@@ -193,8 +193,7 @@ impl Builder<'_> {
         if order.len() <= self.leaf {
             return;
         }
-        let extent = middles.max - middles.min;
-        let axis = (0..3).fold(0, |best, axis| if extent[axis] > extent[best] { axis } else { best });
+        let axis = middles.longest_axis();
         let middle = order.len() / 2;
         let key = |item: u32| self.items[item as usize].bounds.center()[axis];
         order.select_nth_unstable_by(middle, |&a, &b| key(a).total_cmp(&key(b)).then(a.cmp(&b)));
