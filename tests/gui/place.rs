@@ -101,8 +101,8 @@ fn a_long_error_covers_less_than_half_of_the_picture_and_can_be_put_away() {
 fn a_narrow_window_folds_its_panels_away_and_keys_unfold_one() {
     let desk = Desk::new();
     let mut window = sized_window_of(opened(&desk), [640.0, 400.0], 2.0);
-    let has_field = |window: &Window<'_>| window.query_by_label("Focus distance").is_some();
-    let has_list = |window: &Window<'_>| window.query_by_label("2 Ball: ball").is_some();
+    let has_field = |window: &Window<'_>| window.query_all_by_label("Focus distance").count() > 0;
+    let has_list = |window: &Window<'_>| window.query_all_by_label("2 Ball: ball").count() > 0;
     assert!(!has_field(&window) && !has_list(&window));
     assert!(place(&window).width() == 640.0 && place(&window).height() > 280.0, "{}", place(&window));
     press(&mut window, Key::L);
@@ -137,13 +137,13 @@ fn everything_in_the_bar_lies_in_the_window_also_where_it_is_narrow() {
     let desk = Desk::new();
     for width in [640.0, NARROW - 1.0, NARROW] {
         let window = sized_window_of(opened(&desk), [width, 400.0], 1.0);
-        for label in
-            ["File", "Edit", "Look", "Help", "Preview", "Render", "Pause", "Stop", "Fields", "Objects"]
-        {
+        for label in ["File", "Edit", "Look", "Help", "Preview", "Pause", "Stop", "Fields", "Objects"] {
             let rect = window.get_by_role_and_label(Role::Button, label).rect();
             assert!(rect.right() <= width, "{label} of {width}: {rect}");
         }
-        let view = window.get_by_role_and_label(Role::ComboBox, "View").rect();
-        assert!(view.right() <= width, "the view of {width}: {view}");
+        let lists = window.get_all_by_role(Role::ComboBox).map(|node| node.rect());
+        assert!(
+            lists.max_by(|a, b| a.right().total_cmp(&b.right())).is_some_and(|rect| rect.right() <= width)
+        );
     }
 }
