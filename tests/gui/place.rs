@@ -12,6 +12,9 @@ use pathtracer::gui::studio::Notice;
 use pathtracer::render::Ended;
 use std::time::{Duration, Instant};
 
+/// Points on the left and right together that the tests' frame around the widgets takes from the window.
+const MARGINS: f32 = 16.0;
+
 fn place(window: &Window<'_>) -> Rect {
     window.state().1.canvas.place.expect("a place")
 }
@@ -104,7 +107,11 @@ fn a_narrow_window_folds_its_panels_away_and_keys_unfold_one() {
     let has_field = |window: &Window<'_>| window.query_all_by_label("Focus distance").count() > 0;
     let has_list = |window: &Window<'_>| window.query_all_by_label("2 Ball: ball").count() > 0;
     assert!(!has_field(&window) && !has_list(&window));
-    assert!(place(&window).width() == 640.0 && place(&window).height() > 280.0, "{}", place(&window));
+    assert!(
+        place(&window).width() == 640.0 - MARGINS && place(&window).height() > 280.0,
+        "{}",
+        place(&window)
+    );
     press(&mut window, Key::L);
     assert!(has_field(&window) && !has_list(&window));
     assert!(place(&window).width() > 320.0, "{}", place(&window));
@@ -126,7 +133,7 @@ fn a_wide_window_keeps_which_panels_are_folded_away() {
         press(&mut window, key);
         assert!(!window.state().1.sides.is_shown(side, &window.state().0.kept));
     }
-    assert_eq!((window.state().0.kept.folded, place(&window).width()), ([true; 2], 1280.0));
+    assert_eq!((window.state().0.kept.folded, place(&window).width()), ([true; 2], 1280.0 - MARGINS));
     press(&mut window, Key::L);
     press(&mut window, Key::O);
     assert_eq!((window.state().0.kept.folded, place(&window)), ([false; 2], before));
