@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # scenes/pictures/window.sh [PROGRAM [SAMPLES]]: the README's pictures of the window, dark and light, on a virtual display:
-# a scene whose preview, with so many samples (128), has ended, and an object that was clicked.
+# a scene whose preview, with so many samples (48), has ended, and an object that was clicked.
 # Needs Xvfb, xdotool, Mesa's software GL and ImageMagick (Debian: xvfb xdotool libgl1-mesa-dri imagemagick).
 set -euo pipefail
 cd "$(dirname "$0")"
 root=$(cd ../.. && pwd)
 program=$(realpath "${1:-$root/target/release/pathtracer}")
-samples=${2:-128}
+samples=${2:-48}
 work=$(mktemp -d)
 children=()
 trap 'kill "${children[@]}" 2>/dev/null || true; rm -r "$work"' EXIT

@@ -57,6 +57,8 @@ pub fn forecasts(
     let pixels = |width: u32, height: u32| f64::from(width) * f64::from(height);
     let all = pixels(knobs.width, knobs.height);
     let per_sample = status.seconds / status.samples as f64;
+    // With fewer samples, dark pixels have not met their light yet.
+    let blocks = blocks.filter(|blocks| blocks.samples >= NOISE_AFTER);
     if let (Some(target), Some(blocks)) = (knobs.noise, blocks) {
         let [least, most] =
             samples_to(blocks, target, knobs.samples).map(|each| time(each * all * per_sample));

@@ -3,20 +3,21 @@
 use super::Desk;
 use super::panels::{Window, window};
 use eframe::egui::accesskit::Role;
-use eframe::egui::{Key, Modifiers};
+use eframe::egui::{Key, Modifiers, Rect};
 use egui_kittest::kittest::{NodeT, Queryable};
 use pathtracer::scene::edit::Surface;
 
-/// Types into the number with this label, or the first of several.
+/// Types into the first number beside this label.
 fn type_number(window: &mut Window<'_>, label: &str, text: &str) {
-    let find = |window: &Window<'_>| {
-        let all = window.get_all_by_role(Role::SpinButton);
-        let own = all.filter(|node| {
-            node.accesskit_node().labelled_by().any(|by| by.value().as_deref() == Some(label))
-        });
-        own.map(|node| node.rect().center()).next().expect("a number with this label")
+    let at = {
+        let mut labels = window.get_all_by_role_and_label(Role::Label, label);
+        let label = labels.next().expect("a label").rect();
+        let numbers = window.get_all_by_role(Role::SpinButton).map(|node| node.rect());
+        let is_beside =
+            |rect: &Rect| rect.y_range().contains(label.center().y) && rect.left() > label.right();
+        let beside = numbers.filter(is_beside).min_by(|a, b| a.left().total_cmp(&b.left()));
+        beside.expect("a number beside the label").center()
     };
-    let at = find(window);
     window.hover_at(at);
     window.run_steps(1);
     for pressed in [true, false] {
@@ -110,9 +111,9 @@ fn coordinates_of_six_characters_fit_their_fields() {
         let text = window.ctx.fonts_mut(|fonts| {
             fonts.layout_no_wrap("-12.75".into(), font, eframe::egui::Color32::WHITE).size().x
         });
-        // Margins of four points on either side.
+        // Margins of eight points on either side.
         assert!(
-            widths.len() == 3 && widths.iter().all(|width| *width >= text + 8.0),
+            widths.len() == 3 && widths.iter().all(|width| *width >= text + 16.0),
             "{widths:?} for {text}"
         );
     }

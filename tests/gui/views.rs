@@ -1,4 +1,4 @@
-use super::{Desk, SCENES, load, preview, sample, session, small};
+use super::{Desk, load, preview, sample, session, small};
 use crate::support::random::Random;
 use eframe::egui::{Rect, Vec2, pos2};
 use pathtracer::gui::camera_control as control;
@@ -205,7 +205,7 @@ fn a_preview_tells_what_the_final_render_will_take() {
     // Ten times the sides: 100 times the pixels.
     let knobs = Knobs { width: 480, height: 270, samples: 16, ..Knobs::default() };
     // One block of 4 % and one of 10 %, of as many pixels.
-    let blocks = BlockErrors { samples: 4, squares: vec![(0.0016, 648.0), (0.01, 648.0)] };
+    let blocks = BlockErrors { samples: 64, squares: vec![(0.0016, 648.0), (0.01, 648.0)] };
     let told = |knobs: &Knobs| forecasts(&status, &small(), Some(&blocks), knobs);
     assert_eq!(told(&knobs), ["final: about 13 min 20 s"]);
     let target = Knobs { noise: Some(0.05), ..knobs.clone() };
@@ -226,33 +226,24 @@ fn a_target_takes_more_samples_in_some_blocks_and_no_block_fewer_than_the_first_
 }
 
 #[test]
-fn a_noise_target_takes_as_many_samples_as_the_preview_foretells() {
-    for name in SCENES {
+fn a_noise_target_takes_about_as_many_samples_as_the_preview_foretells() {
+    for name in ["bigBalls", "cornellBox", "glassBalls"] {
         let loaded = load(&sample(name));
         let session = session();
-        for seen in [16, 128] {
-            let settings = Settings { samples: seen, ..Settings::new(96, 54, seen, 8) };
-            session.order(preview(
-                &loaded,
-                &loaded.editable,
-                &Settings { error_estimate: true, ..settings.clone() },
-            ));
-            session.wait();
-            let blocks = session.frame().and_then(|frame| frame.blocks.clone()).expect("errors of blocks");
-            for target in [0.1, 0.2] {
-                let settings = Settings { noise: Some(target), samples: 1 << 14, ..settings.clone() };
-                session.order(preview(&loaded, &loaded.editable, &settings));
-                session.wait();
-                let frame = session.frame().expect("a picture");
-                let pixels = frame.light.len();
-                let real = (0..pixels).map(|pixel| frame.count(pixel)).sum::<u64>() as f64 / pixels as f64;
-                let [least, most] = samples_to(&blocks, target, 1 << 14);
-                println!(
-                    "{name} {seen} {target}: {real} of {least} to {most}: {} {}",
-                    real / least,
-                    real / most
-                );
-            }
-        }
+        let seen = Settings { error_estimate: true, ..Settings::new(96, 54, 128, 8) };
+        session.order(preview(&loaded, &loaded.editable, &seen));
+        session.wait();
+        let blocks = session.frame().and_then(|frame| frame.blocks.clone()).expect("errors of blocks");
+        let target = 0.1;
+        let real = Settings { noise: Some(target), samples: 1 << 14, ..seen };
+        session.order(preview(&loaded, &loaded.editable, &real));
+        session.wait();
+        let frame = session.frame().expect("a picture");
+        let pixels = frame.light.len();
+        let real = (0..pixels).map(|pixel| frame.count(pixel)).sum::<u64>() as f64 / pixels as f64;
+        let [least, most] = samples_to(&blocks, target, 1 << 14);
+        // Blocks of 256 pixels, each with one squared difference, know their squared error to a part in sqrt(2 / 256) where the
+        // pixels are alike, but a few bright pixels may carry it all: then to a factor of about two.
+        assert!((0.5 * least..2.0 * most).contains(&real), "{name}: {real} of {least} to {most}");
     }
 }

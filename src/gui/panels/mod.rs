@@ -47,7 +47,7 @@ impl Desk {
         let foot = Panel::bottom("status").resizable(false).exact_size(height);
         foot.show(ui, |ui| status::show(ui, studio));
         if self.sides.is_shown(Side::Fields, &studio.kept) {
-            Panel::left("parameters").default_size(270.0).size_range(250.0..=420.0).show(ui, |ui| {
+            Panel::left("parameters").default_size(280.0).size_range(260.0..=420.0).show(ui, |ui| {
                 ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                     parameters::show(ui, studio);
                     sky::show(ui, studio);

@@ -17,7 +17,7 @@ pub(super) fn show(ui: &mut Ui, studio: &mut Studio) {
     let title = format!("Objects ({})", objects.len());
     CollapsingHeader::new(title).id_salt("objects").default_open(true).show(ui, |ui| {
         let height = ui.text_style_height(&TextStyle::Body) + 2.0 * ui.spacing().button_padding.y;
-        ScrollArea::vertical().id_salt("list").max_height(180.0).auto_shrink([false, true]).show_rows(
+        ScrollArea::vertical().id_salt("list").max_height(150.0).auto_shrink([false, true]).show_rows(
             ui,
             height,
             objects.len(),

@@ -144,8 +144,7 @@ fn camera(ui: &mut Ui, studio: &mut Studio) {
 
 /// Three fields in a row, as wide as the panel allows.
 fn triple(ui: &mut Ui, studio: &mut Studio, label: &str, field: fn(usize) -> Field) {
-    // A field takes its margins on top of its width, four points on either side.
-    let width = (ui.available_width() - LABEL) / 3.0 - GAP - 8.0;
+    let width = (ui.available_width() - LABEL) / 3.0 - GAP;
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = GAP;
         let start = ui.cursor().left();
