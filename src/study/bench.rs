@@ -130,14 +130,8 @@ pub fn scene_size(options: &Options) -> [u32; 2] {
 pub fn scene(name: String, world: &World, camera: &CameraDesc, options: &Options) -> Result<Rung> {
     let pools = Pools::new(options.threads)?;
     let [width, height] = scene_size(options);
-    let recording = Recording {
-        width,
-        height,
-        samples: 1,
-        bounces: 8,
-        rays: options.rays,
-        seed: options.seed,
-    };
+    let recording =
+        Recording { width, height, samples: 1, bounces: 8, rays: options.rays, seed: options.seed };
     let mut sets = pools.all().install(|| {
         let recorder = Bvh::build(&world.geometry, &build_options(Precision::Exact, options.isa))?;
         Ok(rays_of_paths(world, camera, &recorder, &recording))

@@ -282,12 +282,15 @@ fn surfaces_on_one_another_are_warned_of() {
     for (below, above) in [
         (floor.clone(), floor.clone()),
         (floor.clone(), square(DVec3::new(1.5, 1.5, 1e-18), 4.0)),
-        (floor.clone(), ShapeDesc::Rectangle {
-            position: DVec3::ZERO,
-            width: 1.0,
-            height: 2.0,
-            rotation: DVec3::new(0.0, -90.0, 20.0),
-        }),
+        (
+            floor.clone(),
+            ShapeDesc::Rectangle {
+                position: DVec3::ZERO,
+                width: 1.0,
+                height: 2.0,
+                rotation: DVec3::new(0.0, -90.0, 20.0),
+            },
+        ),
         (ball(DVec3::Z, 1.0), ball(DVec3::new(1e-18, 0.0, 1.0), 1.0)),
         (block.clone(), block),
     ] {
