@@ -2,9 +2,7 @@
 //! accelerator and the instructions. Every sample scene is rendered, small; the long version is behind `--ignored`.
 
 use crate::support::watch::Unwatched;
-use pathtracer::accel::bvh::Bvh;
-use pathtracer::accel::{BuildOptions, BvhQuality, Isa, Precision};
-use pathtracer::geometry::Geometry;
+use pathtracer::accel::{BvhQuality, Isa, Precision, check_isa};
 use pathtracer::output;
 use pathtracer::picture::Destination;
 use pathtracer::render::{AccelKind, Settings, render};
@@ -53,7 +51,7 @@ impl Subject {
 
     fn files(&self, settings: &Settings) -> Files {
         let rendered = render(&self.world, &self.camera, settings, &Unwatched).expect("a render");
-        assert_eq!(rendered.counters.dropped, 0);
+        assert_eq!((rendered.counters.dropped, rendered.counters.self_hits), (0, 0), "{settings:?}");
         ["a.png", "a.exr"].map(|name| {
             let destination = Destination::new(&self.folder.path().join(name)).expect("a place to write");
             output::write(&rendered.film, 0.0, &destination).expect("a written picture");
@@ -64,9 +62,8 @@ impl Subject {
 
 /// The instruction sets that this machine has, and the choice of the best.
 fn instruction_sets() -> Vec<Option<Isa>> {
-    let geometry = Geometry::new(Vec::new(), &[]);
-    let has = |&isa: &Option<Isa>| Bvh::build(&geometry, &BuildOptions { isa, ..Default::default() }).is_ok();
-    [None, Some(Isa::Sse2), Some(Isa::Avx2), Some(Isa::Avx512)].into_iter().filter(has).collect()
+    let all = [None, Some(Isa::Sse2), Some(Isa::Avx2), Some(Isa::Avx512)];
+    all.into_iter().filter(|&isa| check_isa(isa).is_ok()).collect()
 }
 
 /// Fails at the first render whose files are not the expected ones.
@@ -82,16 +79,20 @@ fn assert_same(name: &str, subject: &Subject, expected: &Files, variants: impl I
 fn schedules_agree(samples: u64) {
     for name in NAMES {
         let subject = Subject::new(name, samples);
-        for &accel in ACCELERATORS {
-            let base = Settings { accel, ..subject.settings() };
-            let schedules = [(1, 8), (1, 64), (2, 8), (2, 64), (8, 8), (8, 64)];
-            let variants = schedules.map(|(threads, tile)| Settings {
-                threads: Some(threads),
-                tile: Some(tile),
-                ..base.clone()
-            });
-            assert_same(name, &subject, &subject.files(&base), variants.into_iter());
-        }
+        schedules_of_size_agree(name, &subject, subject.settings());
+    }
+}
+
+fn schedules_of_size_agree(name: &str, subject: &Subject, settings: Settings) {
+    for &accel in ACCELERATORS {
+        let base = Settings { accel, ..settings.clone() };
+        let schedules = [(1, 8), (1, 64), (2, 8), (2, 64), (8, 8), (8, 64)];
+        let variants = schedules.map(|(threads, tile)| Settings {
+            threads: Some(threads),
+            tile: Some(tile),
+            ..base.clone()
+        });
+        assert_same(name, subject, &subject.files(&base), variants.into_iter());
     }
 }
 
@@ -126,6 +127,16 @@ fn native_pictures_agree(samples: u64) {
 #[test]
 fn threads_and_tiles_change_no_byte_of_a_sample_scene() {
     schedules_agree(FEW);
+}
+
+/// Of this size there are twelve tiles of 64, four of them whole.
+#[test]
+fn threads_and_tiles_change_no_byte_of_a_larger_picture() {
+    for name in ["objectScene", "cornellBox"] {
+        let subject = Subject::new(name, 2);
+        let settings = Settings { width: 200, height: 136, ..subject.settings() };
+        schedules_of_size_agree(name, &subject, settings);
+    }
 }
 
 #[test]

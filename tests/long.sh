@@ -1,6 +1,6 @@
 #!/bin/bash
 # The long versions: every fuzz target for SECONDS (an hour unless given) with AddressSanitizer, the soak for as long, 200
-# kills, and all ignored tests. Needs cargo-fuzz. Usage: tests/long.sh [SECONDS]
+# kills, all ignored tests, and the property tests with a seed of their own. Needs cargo-fuzz. Usage: tests/long.sh [SECONDS]
 set -euo pipefail
 cd "$(dirname "$0")/.."
 seconds=${1:-3600}
@@ -19,3 +19,7 @@ for target in yaml obj mtl film geometry; do
 done
 PATHTRACER_SOAK_SECONDS=$seconds cargo test --release --test tests soak -- --ignored --nocapture
 cargo test --release --test tests -- --ignored
+# Cases that no run has tried; the seed says how to try them again.
+seed=$(date +%s)
+echo "PATHTRACER_SEED=$seed"
+PATHTRACER_SEED=$seed cargo test --release --test tests extremes::geometry

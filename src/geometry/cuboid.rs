@@ -64,6 +64,13 @@ impl Cuboid {
         if face.is_multiple_of(2) { -axis } else { axis }
     }
 
+    /// The face that a point of the surface is on, with the normal there, of either sign.
+    pub fn face_at(&self, position: DVec3, normal: DVec3) -> u32 {
+        let size = self.to_local(normal).abs();
+        let axis = (0..3).fold(0, |best, axis| if size[axis] > size[best] { axis } else { best });
+        2 * axis as u32 + u32::from(self.to_local(position - self.center)[axis] > 0.0)
+    }
+
     /// The point of a face nearest to where the line is after `t`, relative to the centre, in the box's axes.
     pub fn point_on_face(&self, origin: DVec3, direction: DVec3, t: f64, face: u32) -> DVec3 {
         let mut p = self.to_local((origin - self.center) + direction * t).clamp(-self.half, self.half);

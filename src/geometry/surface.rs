@@ -55,7 +55,9 @@ impl SurfacePoint {
         let origin = self.beside(side_here);
         let way = target.beside(side_there) - origin;
         let length = way.length();
-        if !(way.dot(toward) > 0.0 && length.is_finite()) {
+        // Offsets that turn the way round to the other side of the surface hide it too: at a point of one surface that lies
+        // on another one.
+        if !(way.dot(toward) > 0.0 && way.dot(side_here) >= 0.0 && length.is_finite()) {
             return None;
         }
         let direction = way * length.recip();

@@ -5,7 +5,7 @@ use super::Counters;
 use super::caustic::{Caustics, Passage};
 use super::numbers::{Numbers, SegmentNumbers};
 use crate::accel::Accelerator;
-use crate::geometry::{Hit, PrimitiveId, Ray};
+use crate::geometry::{Hit, PrimitiveId, Ray, SurfacePoint};
 use crate::material::{Material, Pdf};
 use crate::math::{DVec3, Rgb};
 use crate::sampling::Sampler;
@@ -280,7 +280,7 @@ impl<'a, A: Accelerator> PathTracer<'a, A> {
         let Some(light) = world.lights.sample(&world.geometry, &world.sky, receiver, [choice, u, v]) else {
             return Rgb::ZERO;
         };
-        let Some((ray, length, target)) = shadow_ray(receiver, &light) else {
+        let Some((ray, length, end)) = shadow_ray(receiver, &light) else {
             return Rgb::ZERO;
         };
         if ray.direction.dot(receiver.side) <= 0.0 {
@@ -291,7 +291,7 @@ impl<'a, A: Accelerator> PathTracer<'a, A> {
             return Rgb::ZERO;
         }
         counters.rays += 1;
-        if !self.reaches(&ray, length, target) {
+        if !self.reaches(&ray, length, end) {
             return Rgb::ZERO;
         }
         if !ray.is_finite() {
@@ -302,14 +302,15 @@ impl<'a, A: Accelerator> PathTracer<'a, A> {
         scattered * light.radiance * (1.0 / (light.pdf + pdf))
     }
 
-    /// Whether a ray of this length meets a chosen point of `target`, as a path would: of surfaces that lie on one another
-    /// it meets one.
+    /// Whether a ray of this length meets the point that it was aimed at (`None`: the sky), as a path would: of surfaces
+    /// that lie on one another it meets one.
     #[inline]
-    pub(super) fn reaches(&self, ray: &Ray, length: f64, target: PrimitiveId) -> bool {
-        if self.world.lights.shares_its_place(target) {
-            return self.accelerator.intersect(ray).is_some_and(|hit| hit.primitive == target);
+    pub(super) fn reaches(&self, ray: &Ray, length: f64, end: Option<&SurfacePoint>) -> bool {
+        let Some(point) = end else { return !self.accelerator.occluded(ray, length, PrimitiveId::NONE) };
+        if self.world.lights.share_their_place(&self.world.geometry, point) {
+            return self.accelerator.intersect(ray).is_some_and(|hit| hit.primitive == point.primitive);
         }
-        !self.accelerator.occluded(ray, length, target)
+        !self.accelerator.occluded(ray, length, point.primitive)
     }
 
     /// Turns the path to a direction that the material chose. Whether it goes on.
@@ -368,13 +369,13 @@ impl Chosen {
     }
 }
 
-/// The ray to a chosen light, the distance within which nothing may stand, and what may stand there.
-fn shadow_ray(at: &Receiver, light: &LightSample) -> Option<(Ray, f64, PrimitiveId)> {
+/// The ray to a chosen light, the distance within which nothing may stand, and the point at its end.
+fn shadow_ray<'l>(at: &Receiver, light: &'l LightSample) -> Option<(Ray, f64, Option<&'l SurfacePoint>)> {
     match &light.target {
-        LightTarget::Sky(direction) => Some((at.point.leave(*direction), f64::INFINITY, PrimitiveId::NONE)),
+        LightTarget::Sky(direction) => Some((at.point.leave(*direction), f64::INFINITY, None)),
         LightTarget::Surface(point) => {
             let (ray, length) = at.point.leave_to(point)?;
-            Some((ray, length, point.primitive))
+            Some((ray, length, Some(point)))
         }
     }
 }

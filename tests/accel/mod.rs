@@ -9,7 +9,7 @@ mod ties;
 mod watertight;
 
 use pathtracer::accel::bvh::Bvh;
-use pathtracer::accel::{BuildOptions, BvhQuality, Isa, Precision};
+use pathtracer::accel::{BuildOptions, BvhQuality, Isa, Precision, check_isa};
 use pathtracer::geometry::Geometry;
 
 /// The native accelerator with the machine's best instructions.
@@ -26,12 +26,13 @@ fn native_of(geometry: &Geometry, quality: BvhQuality) -> Bvh<'_> {
     Bvh::build(geometry, &options).unwrap()
 }
 
+/// The instruction sets that this machine has.
+fn instruction_sets() -> impl Iterator<Item = Isa> {
+    [Isa::Sse2, Isa::Avx2, Isa::Avx512].into_iter().filter(|&isa| check_isa(Some(isa)).is_ok())
+}
+
 /// The native accelerator in every instruction set that this machine has.
 fn every_isa(geometry: &Geometry, precision: Precision) -> Vec<Bvh<'_>> {
-    let sets = [Isa::Sse2, Isa::Avx2, Isa::Avx512];
-    sets.into_iter()
-        .filter_map(|isa| {
-            Bvh::build(geometry, &BuildOptions { precision, isa: Some(isa), ..Default::default() }).ok()
-        })
-        .collect()
+    let options = |isa| BuildOptions { precision, isa: Some(isa), ..Default::default() };
+    instruction_sets().map(|isa| Bvh::build(geometry, &options(isa)).expect("a tree")).collect()
 }

@@ -125,6 +125,33 @@ fn a_lamp_flush_with_a_ceiling_is_met_if_it_comes_first() {
     assert!((first / alone - 1.0).abs() < 0.05, "{first}, alone {alone}");
 }
 
+/// Of longer paths: points of a white surface where a lamp lies on it have the lamp at no distance, on either side.
+#[test]
+fn a_lamp_sheds_no_light_on_the_surface_that_hides_it() {
+    for front in [90.0, -90.0] {
+        let flat = |z: f64, side: f64, material| {
+            let rotation = DVec3::new(0.0, front, 0.0);
+            let position = DVec3::new(0.0, 0.0, z);
+            (ShapeDesc::Rectangle { position, width: side, height: side, rotation }, material)
+        };
+        let ceiling = || flat(1.0, 6.0, diffuse(grey(0.75)));
+        let box_lamp = (cuboid(DVec3::Z * 1.25, DVec3::new(1.0, 1.0, 0.5), DVec3::ZERO), lamp(1.0));
+        for (name, hidden) in [("rectangle", flat(1.0, 1.5, lamp(1.0))), ("box", box_lamp)] {
+            for height in [0.0, 0.3] {
+                let mut desc = above_floor(vec![ceiling(), hidden.clone()]);
+                // A floor that sends on what the ceiling does; elsewhere than at the middle of all.
+                desc.objects[0].shape = square(DVec3::Z * height, 4.0);
+                desc.camera.position = DVec3::new(-0.3, 0.2, height + 0.5);
+                desc.camera.looking_at = DVec3::new(0.1, 0.05, height);
+                let what = format!("{name}, front {front}, floor at {height}");
+                let mean = agreed(&what, &desc, 5);
+                // What goes round the ceiling, of the box above it.
+                assert!(name == "box" || mean == 0.0, "{what}: {mean}");
+            }
+        }
+    }
+}
+
 /// Where roundings decide which of two surfaces is met, they decide alike for rays that are aimed.
 #[test]
 fn lamps_that_are_flush_with_something_else_are_seen_as_they_are_met() {

@@ -2,6 +2,7 @@
 
 use crate::support::build::*;
 use pathtracer::math::DVec3;
+use pathtracer::scene::desc::{SceneDesc, ShapeDesc};
 use std::f64::consts::PI;
 
 const WIDTH: f64 = 1e-3;
@@ -125,5 +126,86 @@ fn triangles_of_every_solid_angle_light_a_floor() {
         let desc = lit_floor(mesh(corners.map(|p| p.to_array()).to_vec(), vec![[0, 1, 2]]), 1.0 / expected);
         let samples = if size > 0.01 { 400_000 } else { 20_000 };
         assert_mean_of_light(&format!("triangle {size}"), &desc, &measure(samples), 1.0, WIDTH, expected);
+    }
+}
+
+/// Above the floor's point, each filling more than 5 of the 6.28 steradians there.
+#[test]
+fn boxes_and_triangles_of_more_than_5_steradians_light_a_floor() {
+    let (center, size) = (DVec3::new(1.0, -2.0, 10.5), DVec3::new(40.0, 30.0, 20.0));
+    let low = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
+        .map(|(x, y)| center + size * 0.5 * DVec3::new(x, y, -1.0));
+    let corners = [DVec3::new(-30.0, -20.0, 0.4), DVec3::new(30.0, -25.0, 0.5), DVec3::new(2.0, 35.0, 0.6)];
+    let triangle = mesh(corners.map(|p| p.to_array()).to_vec(), vec![[0, 1, 2]]);
+    for (what, shape, seen) in
+        [("box", cuboid(center, size, DVec3::ZERO), &low[..]), ("triangle", triangle, &corners[..])]
+    {
+        assert!(solid_angle(seen) > 5.0, "{what}: {}", solid_angle(seen));
+        let expected = polygon(seen);
+        let desc = lit_floor(shape, 1.0 / expected);
+        assert_mean_of_light(what, &desc, &measure(1_000_000), 1.0, WIDTH, 1.0 - expected);
+    }
+}
+
+/// Of a polygon, in triangles (van Oosterom and Strackee).
+fn solid_angle(corners: &[DVec3]) -> f64 {
+    let unit: Vec<DVec3> = corners.iter().map(|corner| corner.normalize()).collect();
+    let of_triangle = |[a, b, c]: [DVec3; 3]| {
+        2.0 * libm::atan2(a.dot(b.cross(c)), 1.0 + a.dot(b) + b.dot(c) + c.dot(a)).abs()
+    };
+    (1..unit.len() - 1).map(|i| of_triangle([unit[0], unit[i], unit[i + 1]])).sum()
+}
+
+/// Every direction above the floor's point ends at the box.
+#[test]
+fn a_floor_inside_a_box_light_is_fully_lit() {
+    let turn = DVec3::new(20.0, -35.0, 50.0);
+    for (center, size) in [
+        (DVec3::new(0.1, -0.2, 0.3), DVec3::new(2.0, 3.0, 1.0)),
+        (DVec3::new(0.0, 0.0, 5e5), DVec3::new(1e6, 1.0, 1.1e6)),
+        (DVec3::new(0.0, 0.0, 2.4e-3), DVec3::splat(5e-3)),
+    ] {
+        for rotation in [DVec3::ZERO, turn] {
+            // The floor is inside of the turned box, too.
+            let center = if rotation == turn { DVec3::splat(0.1 * size.min_element()) } else { center };
+            let shape = cuboid(center, size, rotation);
+            let mut desc = lit_floor(shape, 2.0);
+            desc.camera.position *= 0.1;
+            assert_mean(&format!("box {size} {rotation}"), &desc, &measure(200_000), 2.0, WIDTH);
+        }
+    }
+}
+
+/// A floor so small, and an eye so near, that a light 1e-6 away is above both or beside both.
+fn at_a_millionth(light: ShapeDesc) -> SceneDesc {
+    let mut desc = lit_floor(light, 1.0);
+    desc.objects[0].shape = square(DVec3::ZERO, 1e-7);
+    desc.camera.position = DVec3::new(-1e-8, 0.0, 1e-8);
+    desc
+}
+
+/// 1e-6 below a light, which fills the sky but for a strip at the horizon, and 1e-6 beside one that stands upright and goes
+/// on below the floor: its upper half is what lights it.
+#[test]
+fn a_floor_at_a_millionth_of_a_light_is_lit_as_by_its_outline() {
+    let gap = 1e-6;
+    let above = [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)].map(|(x, y)| DVec3::new(x, y, gap));
+    let beside = [(-0.5, 0.0), (0.5, 0.0), (0.5, 0.5), (-0.5, 0.5)].map(|(y, z)| DVec3::new(gap, y, z));
+    let whole = [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)].map(|(y, z)| DVec3::new(gap, y, z));
+    let quad = |corners: [DVec3; 4]| mesh(corners.map(|p| p.to_array()).to_vec(), vec![[0, 1, 2], [0, 2, 3]]);
+    let upright =
+        ShapeDesc::Rectangle { position: DVec3::X * gap, width: 1.0, height: 1.0, rotation: DVec3::ZERO };
+    for (what, shape, seen) in [
+        ("rectangle above", square(DVec3::Z * gap, 1.0), above),
+        ("box above", cuboid(DVec3::Z * (gap + 0.5), DVec3::ONE, DVec3::ZERO), above),
+        ("mesh above", quad(above), above),
+        ("rectangle beside", upright, beside),
+        ("box beside", cuboid(DVec3::X * (gap + 0.5), DVec3::ONE, DVec3::ZERO), beside),
+        ("mesh beside", quad(whole), beside),
+    ] {
+        let expected = polygon(&seen);
+        let samples = if what.starts_with("mesh") { 2_000_000 } else { 600_000 };
+        let rare = if what.ends_with("above") { 1.0 - expected } else { 0.0 };
+        assert_mean_of_light(what, &at_a_millionth(shape), &measure(samples), expected, WIDTH, rare);
     }
 }

@@ -79,6 +79,11 @@ fn kinds() -> Vec<AccelKind> {
     }
 }
 
+/// Each of them at each precision.
+fn kinds_and_precisions() -> impl Iterator<Item = (AccelKind, Precision)> {
+    kinds().into_iter().flat_map(|accel| Precision::ALL.map(|precision| (accel, precision)))
+}
+
 /// Settings of a small picture on one thread.
 fn small(width: u32, height: u32, samples: u64, bounces: u32) -> Settings {
     let precision = Precision::Exact;

@@ -1,8 +1,49 @@
-//! A ball of glass with a ratio of 1 is not there, but for two bounces a crossing.
+//! What is switched to nothing is not there: coats of probability 0, lenses of radius 0; a ball of glass with a ratio of 1,
+//! but for two bounces a crossing.
 
+use super::room::room;
+use super::{kinds, picture, small};
 use crate::support::build::*;
 use pathtracer::math::DVec3;
-use pathtracer::scene::desc::{EnvironmentDesc, MaterialKind, SceneDesc};
+use pathtracer::render::Settings;
+use pathtracer::scene::desc::{ApertureDesc, EnvironmentDesc, MaterialKind, SceneDesc};
+
+/// Both scenes give the same bytes, and another one others.
+fn assert_equal_pictures(one: &SceneDesc, same: &SceneDesc, other: &SceneDesc) {
+    for accel in kinds() {
+        let settings = Settings { accel, ..small(48, 36, 8, 8) };
+        let expected = picture(one, &settings);
+        assert!(picture(same, &settings) == expected, "{accel:?}");
+        assert!(picture(other, &settings) != expected, "{accel:?}: it can't be seen");
+    }
+}
+
+/// The room with a material for everything that is white.
+fn painted(kind: MaterialKind) -> SceneDesc {
+    let mut desc = room(1.0);
+    let white = diffuse(grey(0.75));
+    desc.objects.iter_mut().filter(|o| o.material.kind == white).for_each(|o| o.material.kind = kind.clone());
+    desc
+}
+
+#[test]
+fn a_coat_of_probability_zero_is_the_base() {
+    let color = grey(0.625);
+    let coat =
+        |coat| painted(MaterialKind::ClearCoat { color, coat, coat_color: grey(0.5), specularity: 0.5 });
+    assert_equal_pictures(&painted(diffuse(color)), &coat(0.0), &coat(0.25));
+}
+
+#[test]
+fn a_lens_of_radius_zero_is_a_pinhole() {
+    let with = |aperture| {
+        let mut desc = room(1.0);
+        desc.camera.aperture = aperture;
+        desc
+    };
+    let [pinhole, zero] = [ApertureDesc::DepthOfField(0.0), ApertureDesc::Radius(0.0)].map(with);
+    assert_equal_pictures(&pinhole, &zero, &room(1.0));
+}
 
 /// A point of a floor below a sky and a light, seen through the ball if it is there; light comes through it as well as
 /// beside it. What the light emits from is black, so that no path has more than two segments without the ball.

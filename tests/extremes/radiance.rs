@@ -1,7 +1,7 @@
 //! A picture scales with its lights, and lights of strength 0 are none.
 
 use super::room::room;
-use super::{kinds, picture, small};
+use super::{kinds, kinds_and_precisions, picture, small};
 use crate::support::build::sky;
 use pathtracer::math::{DVec3, Rgb};
 use pathtracer::render::Settings;
@@ -26,13 +26,14 @@ fn lit_room(factor: f64) -> SceneDesc {
 
 #[test]
 fn lights_times_a_power_of_two_scale_every_pixel_exactly() {
-    for accel in kinds() {
-        let settings = Settings { accel, ..small(32, 24, 8, 8) };
+    for (accel, precision) in kinds_and_precisions() {
+        let settings = Settings { accel, precision, ..small(32, 24, 8, 8) };
         let reference = picture(&lit_room(1.0), &settings);
         for exponent in [-30, -9, 9, 30] {
             let factor = libm::ldexp(1.0, exponent);
             let expected: Vec<Rgb> = reference.iter().map(|&pixel| pixel * factor).collect();
-            assert!(picture(&lit_room(factor), &settings) == expected, "{accel:?} 2^{exponent}");
+            let what = format!("{accel:?} {precision:?} 2^{exponent}");
+            assert!(picture(&lit_room(factor), &settings) == expected, "{what}");
         }
     }
 }

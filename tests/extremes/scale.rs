@@ -1,7 +1,7 @@
 //! A picture depends neither on the unit of length nor on where the scene lies.
 
 use super::room::room;
-use super::{kinds, picture, rel_mse, small};
+use super::{kinds, kinds_and_precisions, picture, rel_mse, small};
 use crate::support::build::edit_lengths;
 use pathtracer::math::DVec3;
 use pathtracer::picture::{Decoded, Pixels};
@@ -16,14 +16,14 @@ const EXPONENTS: [i32; 12] = [-100, -40, -30, -20, -10, -1, 1, 10, 20, 30, 40, 1
 
 #[test]
 fn lengths_times_a_power_of_two_change_no_bit() {
-    for accel in kinds() {
-        let settings = Settings { accel, ..small(32, 24, 8, 8) };
+    for (accel, precision) in kinds_and_precisions() {
+        let settings = Settings { accel, precision, ..small(32, 24, 8, 8) };
         let expected = picture(&room(1.0), &settings);
         for exponent in EXPONENTS {
             let mut desc = room(1.0);
             let factor = libm::ldexp(1.0, exponent);
             edit_lengths(&mut desc, |p| p * factor, |l| l * factor);
-            assert!(picture(&desc, &settings) == expected, "{accel:?} 2^{exponent}");
+            assert!(picture(&desc, &settings) == expected, "{accel:?} {precision:?} 2^{exponent}");
         }
     }
 }

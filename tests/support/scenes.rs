@@ -80,12 +80,15 @@ fn mixed(center: DVec3) -> TestScene {
     TestScene::new("mixed", solids, vec![mesh(61, 8, 0.3), mesh(62, 9, -0.3)], center, 1.0)
 }
 
-/// A mesh of 100,000 triangles that stands on a ball of radius 1e7.
-pub(crate) fn on_a_large_ball() -> TestScene {
-    let ball = Ball { center: DVec3::new(0.0, 0.0, -1e7 - 1.1), radius: 1e7 };
+/// A mesh of 100,000 triangles around `center` that stands with its lowest corner on a ball of radius 1e7.
+pub(crate) fn on_a_large_ball(center: DVec3) -> TestScene {
+    let mesh = meshes::moved(meshes::sphere(1.0, 318, 0.05, 1), center);
+    assert!(mesh.triangles.len() >= 100_000);
+    let lowest = mesh.positions.iter().min_by(|a, b| a.z.total_cmp(&b.z)).expect("a corner");
+    let ball = Ball { center: *lowest - DVec3::new(0.0, 0.0, 1e7), radius: 1e7 };
     let ground = Solid { object: 0, shape: Shape::Ball(ball) };
-    let mesh = MeshPart { object: 1, ..meshes::sphere(1.0, 316, 0.05, 1) };
-    TestScene::new("on a large ball", vec![ground], vec![mesh], DVec3::ZERO, 1.0)
+    let mesh = MeshPart { object: 1, ..mesh };
+    TestScene::new("on a large ball", vec![ground], vec![mesh], center, 1.0)
 }
 
 /// Meshes to be shown: of sizes of 3e-4 to 100, one of them far from the origin of its own coordinates. With each the scale

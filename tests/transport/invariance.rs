@@ -66,27 +66,3 @@ fn emission_times_a_power_of_two_scales_every_sample_exactly() {
     let expected: Vec<f64> = samples(&dyadic_room(), &MEASURE).into_iter().map(|v| v * factor).collect();
     assert!(samples(&desc, &MEASURE) == expected);
 }
-
-fn with_material(kind: MaterialKind) -> Vec<f64> {
-    let mut desc = dyadic_room();
-    desc.objects[2].material.kind = kind;
-    samples(&desc, &MEASURE)
-}
-
-#[test]
-fn a_coat_of_probability_zero_is_the_base() {
-    let color = grey(0.625);
-    let coat = MaterialKind::ClearCoat { color, coat: 0.0, coat_color: grey(0.5), specularity: 0.5 };
-    assert!(with_material(coat) == with_material(diffuse(color)));
-}
-
-#[test]
-fn a_lens_of_radius_zero_is_a_pinhole() {
-    let with_aperture = |aperture| {
-        let mut desc = dyadic_room();
-        desc.camera.aperture = aperture;
-        samples(&desc, &MEASURE)
-    };
-    let pinhole = with_aperture(ApertureDesc::DepthOfField(0.0));
-    assert!(with_aperture(ApertureDesc::Radius(0.0)) == pinhole);
-}

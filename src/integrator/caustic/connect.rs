@@ -2,7 +2,7 @@
 
 use super::{Caustics, LightEnd};
 use crate::accel::Accelerator;
-use crate::geometry::{PrimitiveId, Ray};
+use crate::geometry::{Ray, SurfacePoint};
 use crate::integrator::Counters;
 use crate::integrator::numbers::SegmentNumbers;
 use crate::integrator::path::{Chosen, PathTracer, Surface};
@@ -51,16 +51,16 @@ impl<A: Accelerator> PathTracer<'_, A> {
             let last = &points[points.len() - 1];
             let cosine = (point.position - last.position).normalize().dot(point.normal).abs();
             let arriving = scattered * radiance * found.factor(&choice, &end, cosine, pdf);
-            let mut clear = |ray: &Ray, length: f64, target: PrimitiveId| {
+            let mut clear = |ray: &Ray, length: f64, end: &SurfacePoint| {
                 counters.rays += 1;
-                ray.is_finite() && self.reaches(ray, length, target)
+                ray.is_finite() && self.reaches(ray, length, Some(end))
             };
-            let free = clear(&ray, length, points[0].primitive)
+            let free = clear(&ray, length, &points[0])
                 && points.windows(2).all(|ends| {
                     let chord = ends[0].leave_to(&ends[1]);
-                    chord.is_some_and(|(ray, length)| clear(&ray, length, ends[1].primitive))
+                    chord.is_some_and(|(ray, length)| clear(&ray, length, &ends[1]))
                 })
-                && last.leave_to(&point).is_some_and(|(ray, length)| clear(&ray, length, point.primitive));
+                && last.leave_to(&point).is_some_and(|(ray, length)| clear(&ray, length, &point));
             if free {
                 sum += arriving;
             }

@@ -1,11 +1,11 @@
 //! The faces of primitives: balls, and flat polygons of three or four corners.
 
-use crate::geometry::{Ball, Geometry, PrimitiveId, Shape};
+use crate::geometry::{Ball, Geometry, PrimitiveId, Shape, SurfacePoint};
 use crate::math::{Bounds, DMat3, DVec3};
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// Names a face: of a box one of six, of others the whole.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Face {
     pub(super) primitive: PrimitiveId,
     side: u32,
@@ -39,6 +39,16 @@ impl Face {
     /// The face that a triangle is.
     pub(super) fn of_triangle(primitive: PrimitiveId) -> Face {
         Face { primitive, side: 0 }
+    }
+
+    /// The face that a point of a primitive is on.
+    pub(super) fn at(geometry: &Geometry, point: &SurfacePoint) -> Face {
+        let primitive = point.primitive;
+        let side = match primitive.as_solid().map(|solid| &geometry.solids[solid as usize].shape) {
+            Some(Shape::Cuboid(cuboid)) => cuboid.face_at(point.position, point.normal),
+            _ => 0,
+        };
+        Face { primitive, side }
     }
 
     pub(super) fn outline(&self, geometry: &Geometry) -> Outline {
@@ -89,19 +99,29 @@ pub(super) fn balls_coincide(a: &Ball, b: &Ball, tolerance: f64) -> bool {
     a.center.distance(b.center) + (a.radius - b.radius).abs() <= tolerance
 }
 
-/// The unit normal of a polygon; zero without area.
+/// A normal of a polygon, of any length; zero without area.
 fn normal(corners: &[DVec3]) -> DVec3 {
-    let [from, to] = [corners[1] - corners[0], corners[corners.len() - 1] - corners[0]];
-    from.normalize_or_zero().cross(to.normalize_or_zero()).normalize_or_zero()
+    (corners[1] - corners[0]).cross(corners[corners.len() - 1] - corners[0])
+}
+
+/// Whether two vectors are parallel to within [`PARALLEL`]. Of most it takes no root to see that they are not; where squares
+/// leave the range of numbers the roots tell.
+fn are_parallel(a: DVec3, b: DVec3) -> bool {
+    let across = a.cross(b).length_squared();
+    if across > PARALLEL * PARALLEL * a.length_squared() * b.length_squared() {
+        return false;
+    }
+    let (a, b) = (a.normalize_or_zero(), b.normalize_or_zero());
+    a != DVec3::ZERO && b != DVec3::ZERO && a.cross(b).length() <= PARALLEL
 }
 
 /// Whether polygons lie in one plane and overlap: no line along an edge separates them.
 fn flats_overlap(a: &[DVec3], b: &[DVec3], tolerance: f64) -> bool {
-    let (up, other) = (normal(a), normal(b));
-    if up == DVec3::ZERO || other == DVec3::ZERO || up.cross(other).length() > PARALLEL {
+    let up = normal(a);
+    if !are_parallel(up, normal(b)) {
         return false;
     }
-    let from = a[0];
+    let (up, from) = (up.normalize_or_zero(), a[0]);
     let (below, above) = range(b, from, up);
     if below > tolerance || above < -tolerance {
         return false;

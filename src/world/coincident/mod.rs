@@ -4,12 +4,12 @@
 //! first are never met, and where surfaces are flush with one another the roundings of a distance may decide. A ray that is
 //! aimed at a light asks for less: whether anything is in the way of a point just before it. Lights that are never met must
 //! not be aimed at, and of those that share their place with another surface it takes the closest hit to tell whether they
-//! are met. Which lights these are is found once, when a scene is compiled, so that others cost nothing.
+//! are met. Which faces of lights these are is found once, when a scene is compiled, so that others cost nothing.
 
 mod box_tree;
 mod face;
 
-use crate::geometry::{Ball, Geometry, PrimitiveId, Shape, Solid};
+use crate::geometry::{Ball, Geometry, PrimitiveId, Shape, Solid, SurfacePoint};
 use crate::math::Bounds;
 use box_tree::BoxTree;
 use face::Face;
@@ -21,8 +21,8 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 pub(super) struct Coincidences {
     /// Primitives that emit and are never met: an equal one comes before them.
     hidden: HashSet<PrimitiveId>,
-    /// Primitives that emit and share some of their place with another one.
-    shared: HashSet<PrimitiveId>,
+    /// Faces of primitives that emit, which share some of their place with another one's.
+    shared: HashSet<Face>,
 }
 
 impl Coincidences {
@@ -38,8 +38,8 @@ impl Coincidences {
         let mut shared = HashSet::new();
         for Found { light, other } in search.all() {
             shared.insert(light);
-            if other < light && face::are_equal(geometry, light, other) {
-                hidden.insert(light);
+            if other < light.primitive && face::are_equal(geometry, light.primitive, other) {
+                hidden.insert(light.primitive);
             }
         }
         Coincidences { hidden, shared }
@@ -51,10 +51,10 @@ impl Coincidences {
         !self.hidden.is_empty() && self.hidden.contains(&primitive)
     }
 
-    /// Whether it takes the closest hit to tell if a primitive that emits is met.
+    /// Whether it takes the closest hit to tell if a point of a primitive that emits is met.
     #[inline]
-    pub(super) fn shares(&self, primitive: PrimitiveId) -> bool {
-        !self.shared.is_empty() && self.shared.contains(&primitive)
+    pub(super) fn share(&self, geometry: &Geometry, point: &SurfacePoint) -> bool {
+        !self.shared.is_empty() && self.shared.contains(&Face::at(geometry, point))
     }
 }
 
@@ -83,9 +83,9 @@ fn repeats(geometry: &Geometry, primitives: &[PrimitiveId]) -> HashMap<Primitive
     repeated.collect()
 }
 
-/// A primitive that emits, and one that lies on it.
+/// A face of those that are looked at, and the primitive that lies on it.
 struct Found {
-    light: PrimitiveId,
+    light: Face,
     other: PrimitiveId,
 }
 
@@ -133,7 +133,7 @@ pub(super) fn pairs(geometry: &Geometry) -> BTreeMap<u32, u32> {
     let search = Search::new(geometry, once.iter().copied());
     let faces = once.par_iter().flat_map_iter(|&id| Face::all_of(geometry, id));
     let touching: Vec<Found> = faces.flat_map_iter(|face| search.on(face)).collect();
-    let touching = touching.into_iter().map(|Found { light, other }| (light, other));
+    let touching = touching.into_iter().map(|Found { light, other }| (light.primitive, other));
     let object = |id: PrimitiveId| id.as_solid().map(|solid| geometry.solids[solid as usize].object);
     let mut pairs = BTreeMap::new();
     for (later, first) in repeated.into_iter().chain(touching).filter(|(later, first)| first < later) {
@@ -179,13 +179,16 @@ impl<'g> Search<'g> {
     /// What a face lies on.
     fn on(&self, face: Face) -> Vec<Found> {
         let outline = face.outline(self.geometry);
+        let bounds = outline.bounds().padded(self.tolerance);
         let mut found = Vec::new();
-        self.tree.touching(outline.bounds().padded(self.tolerance), |index| {
+        self.tree.touching(bounds, |index| {
             let light = self.faces[index as usize];
-            if light.primitive != face.primitive
-                && light.outline(self.geometry).lies_on(&outline, self.tolerance)
-            {
-                found.push(Found { light: light.primitive, other: face.primitive });
+            if light.primitive == face.primitive {
+                return;
+            }
+            let other = light.outline(self.geometry);
+            if other.bounds().touches(bounds) && other.lies_on(&outline, self.tolerance) {
+                found.push(Found { light, other: face.primitive });
             }
         });
         found
@@ -208,7 +211,7 @@ impl<'g> Search<'g> {
                 found.par_extend((0..count as u32).into_par_iter().flat_map_iter(triangle));
             } else {
                 let other = PrimitiveId::solid(index);
-                let lights = near.into_iter().map(|face| self.faces[face as usize].primitive);
+                let lights = near.into_iter().map(|face| self.faces[face as usize]);
                 found.extend(lights.map(|light| Found { light, other }));
             }
         }

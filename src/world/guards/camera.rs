@@ -129,25 +129,28 @@ fn meshes_at(world: &World, p: DVec3, reach: f64) -> Vec<(u32, f64)> {
         let (local, reach) = (space.frame.to_local(p), reach * space.frame.scale);
         let distance = |triangle: u32| {
             let corners = space.corners(triangle);
-            let around = corners.into_iter().fold(Bounds::EMPTY, Bounds::with_point).padded(reach);
-            let is_near = around.touches(Bounds { min: local, max: local });
-            if is_near { distance_to_triangle(local, corners) } else { f64::INFINITY }
+            let around = corners.into_iter().fold(Bounds::EMPTY, Bounds::with_point);
+            // A coordinate is rounded by half a step at most.
+            let farthest = around.min.abs().max(around.max.abs()).max_element();
+            let reach = reach.max(farthest * f64::from(f32::EPSILON) / 2.0);
+            let is_near = around.padded(reach).touches(Bounds { min: local, max: local });
+            let distance = if is_near { distance_to_triangle(local, corners) } else { f64::INFINITY };
+            if distance <= reach { distance } else { f64::INFINITY }
         };
         let all = triangles.into_par_iter().with_min_len(4096).map(distance);
         let nearest = all.reduce(|| f64::INFINITY, f64::min);
-        (nearest <= reach).then_some(nearest / space.frame.scale)
+        (nearest < f64::INFINITY).then_some(nearest / space.frame.scale)
     };
     let in_world = geometry.world_spaces().flat_map(|(_, space)| {
-        space.mesh_ranges().filter_map(move |(mesh, triangles)| {
-            Some((mesh.object, look(space, p, triangles, reach.max(mesh.rounding))?))
-        })
+        space
+            .mesh_ranges()
+            .filter_map(move |(mesh, triangles)| Some((mesh.object, look(space, p, triangles, reach)?)))
     });
     let instances = geometry.solids.iter().filter_map(|solid| {
         let Shape::Instance(instance) = &solid.shape else { return None };
         let space = geometry.space_of(instance);
-        let (mesh, triangles) = space.mesh_ranges().next()?;
-        let distance =
-            look(space, instance.in_mesh(p), triangles, (reach / instance.scale).max(mesh.rounding))?;
+        let triangles = 0..space.triangles.len() as u32;
+        let distance = look(space, instance.in_mesh(p), triangles, reach / instance.scale)?;
         Some((solid.object, distance * instance.scale))
     });
     in_world.chain(instances).collect()

@@ -155,11 +155,11 @@ impl Lights {
         self.pdf_area(at, hit, point) * (1.0 - self.sky_share)
     }
 
-    /// Whether a primitive that was chosen shares some of its place with another surface, so that only the closest hit of
-    /// a ray tells whether it is met. Else it is met where nothing is in the way.
+    /// Whether the face of a light that a chosen point is on shares some of its place with another surface, so that only
+    /// the closest hit of a ray tells whether it is met. Else it is met where nothing is in the way.
     #[inline]
-    pub fn shares_its_place(&self, primitive: PrimitiveId) -> bool {
-        self.coincidences.shares(primitive)
+    pub fn share_their_place(&self, geometry: &Geometry, point: &SurfacePoint) -> bool {
+        self.coincidences.share(geometry, point)
     }
 
     /// Density per solid angle with which [`Lights::sample`] would have chosen a direction of the sky.

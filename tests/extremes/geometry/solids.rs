@@ -1,8 +1,8 @@
 //! Balls, boxes and rectangles.
 
-use super::{config, direction, point, size};
+use super::{config, direction, point, size, turn};
 use crate::support::double_double::DoubleDouble;
-use pathtracer::geometry::{Ball, Cuboid, Rectangle};
+use pathtracer::geometry::{Ball, Cuboid, Geometry, Ray, Rectangle, Shape, Solid};
 use pathtracer::math::{DMat3, DVec3, EPSILON};
 use proptest::prelude::*;
 
@@ -98,6 +98,89 @@ proptest! {
             }
             None => prop_assert!(outside || enter + 2.0 * slack >= leave, "{} to {}", enter, leave),
         }
+    }
+
+    /// The same of a turned box. Each product with an axis is rounded four times, relative to the sizes of its terms.
+    #[test]
+    fn the_slabs_of_a_turned_box_are_those_of_double_double(
+        center in point(), half in (size(), size(), size()), rotation in turn(), aim in (-1.3..1.3f64, -1.3..1.3f64, -1.3..1.3f64),
+        from in direction(), distance in 0.01..1e4f64,
+    ) {
+        let half = DVec3::from(half);
+        let cuboid = Cuboid { center, half, rotation };
+        let target = center + rotation * (half * DVec3::from(aim));
+        let origin = target + from * (distance * half.max_element());
+        let d = (target - origin).normalize_or_zero();
+        prop_assume!(d != DVec3::ZERO);
+        let f = sub(dd(origin), dd(center));
+        let (mut enter, mut leave, mut slack) = (f64::NEG_INFINITY, f64::INFINITY, 0f64);
+        for axis in 0..3 {
+            let (o, along) = (dot(f, dd(rotation.col(axis))), dot(dd(d), dd(rotation.col(axis))));
+            // Of rays nearly along a slab nothing is known of where they pass its planes.
+            prop_assume!(along.to_f64().abs() > 1e-6);
+            let h = DoubleDouble::from(half[axis]);
+            let planes = [-h, h].map(|h| ((h - o) / along).to_f64());
+            enter = enter.max(planes[0].min(planes[1]));
+            leave = leave.min(planes[0].max(planes[1]));
+            let places = origin.abs().element_sum() + center.abs().element_sum() + half[axis];
+            let farther = planes[0].abs().max(planes[1].abs());
+            slack = slack.max(8.0 * EPSILON * (places + farther) / along.to_f64().abs());
+        }
+        match cuboid.slabs(origin, d) {
+            Some(((t0, _), (t1, _))) => {
+                prop_assert!(enter <= leave + 2.0 * slack);
+                prop_assert!((t0 - enter).abs() <= slack, "enters at {} instead of {}", t0, enter);
+                prop_assert!((t1 - leave).abs() <= slack, "leaves at {} instead of {}", t1, leave);
+            }
+            None => prop_assert!(enter + 2.0 * slack >= leave, "{} to {}", enter, leave),
+        }
+    }
+
+    /// The point of a hit is on the surface, to within the error that it states.
+    #[test]
+    fn points_of_solids_are_on_their_surface_within_the_stated_error(
+        kind in 0..3, center in point(), half in (size(), size(), size()), rotation in turn(),
+        aim in (-0.9..0.9f64, -0.9..0.9f64, -0.9..0.9f64), from in direction(), distance in 0.01..1e4f64,
+    ) {
+        let half = DVec3::from(half);
+        let shape = match kind {
+            0 => Shape::Ball(Ball { center, radius: half.x }),
+            1 => Shape::Cuboid(Cuboid { center, half, rotation }),
+            _ => Shape::Rectangle(Rectangle::new(center, rotation.x_axis * half.x, rotation.y_axis * half.y)),
+        };
+        let reach = match kind {
+            0 => DVec3::splat(0.5 * half.x),
+            1 => half,
+            _ => DVec3::new(half.x, half.y, 0.0),
+        };
+        let target = center + rotation * (reach * DVec3::from(aim));
+        let origin = target + from * (distance * reach.max_element());
+        let geometry = Geometry::new(vec![Solid { object: 0, shape }], &[]);
+        let ray = Ray::new(origin, (target - origin).normalize_or_zero());
+        let hit = geometry.intersect_solid(0, &ray, f64::INFINITY);
+        prop_assume!(hit.is_some() && ray.direction != DVec3::ZERO);
+        let hit = hit.expect("a hit");
+        let point = geometry.surface(&ray, &hit);
+        // Where the roundings of places leave it a size.
+        let least = reach.to_array().into_iter().filter(|&x| x > 0.0).fold(f64::INFINITY, f64::min);
+        let places = origin.abs().max(center.abs()).max_element();
+        prop_assume!(64.0 * EPSILON * places < least);
+        let p = sub(dd(point.position), dd(center));
+        let off = match &shape {
+            Shape::Ball(ball) => (dot(p, p).sqrt() - DoubleDouble::from(ball.radius)).to_f64(),
+            Shape::Cuboid(cuboid) => {
+                let axis = hit.part as usize / 2;
+                (dot(p, dd(rotation.col(axis))).to_f64().abs() - cuboid.half[axis]).abs()
+            }
+            Shape::Rectangle(rectangle) => {
+                let (u, v) = (dd(rectangle.edge_u), dd(rectangle.edge_v));
+                let across = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+                (dot(p, across) / dot(across, across).sqrt()).to_f64()
+            }
+            Shape::Instance(_) => unreachable!("not made"),
+        };
+        let allowed = point.error.dot(point.normal.abs());
+        prop_assert!(off.abs() <= allowed, "{:e} off the surface, {:e} stated", off, allowed);
     }
 
     /// A rectangle is hit where its plane is, within its outline but for roundings of the place relative to the origin.
