@@ -74,8 +74,8 @@ fn too_large(settings: &Settings, available: Option<u64>) -> Error {
     let needed = gigabytes(needed_bytes(settings));
     let available = available.map_or("less".into(), gigabytes);
     Error::Usage(format!(
-        "a picture of {width} x {height} pixels with {samples} samples needs {needed} GB of memory, and {available} GB \
-         are free"
+        "the film of a picture of {width} x {height} pixels with {samples} samples needs {needed} GB of memory, and \
+         {available} GB are free: make the picture smaller, or render it in parts (--part)"
     ))
 }
 
