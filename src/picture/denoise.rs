@@ -189,12 +189,20 @@ fn places() -> Vec<OsString> {
     if let Some(environment) = env::var_os("VIRTUAL_ENV") {
         places.extend(in_python(Path::new(&environment)));
     }
+    // Where pip installs without an environment: for one user, and for all.
+    if let Some(home) = env::var_os("HOME") {
+        places.extend(in_python(&Path::new(&home).join(".local")));
+    }
+    places.extend(in_python(Path::new("/usr/local")));
     places
 }
 
-/// The places of `pyoidn` in the packages of a Python environment.
+/// The places of `pyoidn` in the packages of a Python environment; Debian's own Python has another name for their folder.
 fn in_python(environment: &Path) -> Vec<OsString> {
     let versions = std::fs::read_dir(environment.join("lib")).into_iter().flatten().flatten();
-    let place = |version: std::fs::DirEntry| version.path().join("site-packages/pyoidn/oidn/lib").join(NAME);
-    versions.map(|version| place(version).into_os_string()).collect()
+    let places = |version: std::fs::DirEntry| {
+        ["site-packages", "dist-packages"]
+            .map(|packages| version.path().join(packages).join("pyoidn/oidn/lib").join(NAME).into_os_string())
+    };
+    versions.flat_map(places).collect()
 }
