@@ -78,6 +78,15 @@ fn triangles(object: &ObjectDesc) -> usize {
 }
 
 #[test]
+fn a_picture_for_a_mesh_without_texture_coordinates_is_a_warning() {
+    let mesh = "mtllib mesh.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nusemtl a\nf 1 2 3\n";
+    let scene = Folder::new(mesh, "newmtl a\nmap_Kd no.png\n").load().expect("a scene");
+    let messages: Vec<&str> = scene.warnings.iter().map(|warning| warning.message.as_str()).collect();
+    assert_eq!(messages.len(), 1, "{messages:?}");
+    assert!(messages[0].contains("has no texture coordinates"), "{messages:?}");
+}
+
+#[test]
 fn statements_become_the_four_materials() {
     let (half, grey) = (Rgb::splat(0.5), Rgb::splat(0.25));
     let diffuse = |color, emission| MaterialKind::Diffuse { color, emission };

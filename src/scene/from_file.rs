@@ -113,8 +113,21 @@ fn material(
     context: &mut Context<'_>,
 ) -> Option<MaterialDesc> {
     let mut textures = TexturesDesc::default();
-    // Without texture coordinates nothing says where a picture goes.
-    if let Some(name) = mtl.picture.as_ref().filter(|_| !mesh.texcoord_indices.is_empty()) {
+    let has_coordinates = !mesh.texcoord_indices.is_empty();
+    if let Some(name) = mtl.picture.as_ref().filter(|_| !has_coordinates) {
+        let (name, material) = (quote(name), quote(&mtl.name));
+        context.report.push(Finding {
+            severity: Severity::Warning,
+            subject: value.path.to_string(),
+            text: format!(
+                ": the picture {name} of {material} is not used, as the mesh has no texture coordinates (vt)"
+            ),
+            help: None,
+            place: value.place(),
+            elsewhere: None,
+        });
+    }
+    if let Some(name) = mtl.picture.as_ref().filter(|_| has_coordinates) {
         let file = path.with_file_name(name);
         match context.pictures.open(&file, None) {
             Ok(picture) => textures.color = Some(picture?),
