@@ -38,12 +38,7 @@ impl Halving {
         Halving { chunk }
     }
 
-    /// Whether so many samples are compared.
-    pub fn compares(&self, samples: u64) -> bool {
-        self.largest(samples) == samples
-    }
-
-    /// The largest such number that is not above `samples`; zero for none.
+    /// The largest number of samples whose halves are compared that is not above `samples`; zero for none.
     pub fn largest(&self, samples: u64) -> u64 {
         match (samples / self.chunk).checked_ilog2() {
             Some(doublings) => self.chunk << doublings,

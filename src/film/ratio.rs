@@ -133,8 +133,11 @@ impl Ratio {
         // The terms are as many independent numbers of mean zero.
         let apart: f64 = self.terms.iter().map(|[v, d]| (v - known * d) * (v - known * d)).sum();
         let of_ratio = apart * count / (count - 1.0).max(1.0) / (deviation * deviation);
-        let of_ratio =
-            if deviation > 0.0 { of_ratio.min(known * known) * (ratio / known).powi(2) } else { 0.0 };
+        let of_ratio = if known > 0.0 && deviation > 0.0 {
+            of_ratio.min(known * known) * (ratio / known).powi(2)
+        } else {
+            0.0
+        };
         // Deviations are taken as rare light: the sum of their squares is the variance of their sum. That is twice as much as
         // of normally distributed samples or more, and nothing where many pixels are alike.
         let squares =

@@ -162,8 +162,8 @@ where
     }
 
     /// The sums of a chunk, and why they hold fewer samples than wanted. Passes double what there is: 1, 1, 2, 4 ...
-    /// samples, or fewer where the time is short or a pass takes long, added in the same order as in one go. Where blocks stop, few pixels may
-    /// be left, so all after the first chunk is one pass.
+    /// samples, or fewer where the time is short or a pass takes long, added in the same order as in one go. Where blocks
+    /// stop, few pixels may be left, so all after the first chunk is one pass, unless that takes long.
     fn chunk(&mut self, samples: Range<u64>) -> Result<(Cells, Option<Ended>)> {
         let mut cells = match self.cells.take() {
             Some(cells) => cells,

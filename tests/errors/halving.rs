@@ -9,7 +9,7 @@ fn every_compared_number_of_samples_has_the_later_half_in_a_level_of_its_own() {
     for chunk in [1, 2, 10, 16, 100] {
         let halving = Halving::new(chunk);
         let mut before = 0;
-        for samples in (1..3000).filter(|&samples| halving.compares(samples)) {
+        for samples in (1..3000).filter(|&samples| halving.largest(samples) == samples) {
             let level = halving.level(samples - 1);
             assert!((before..samples).all(|sample| halving.level(sample) == level), "{chunk}: {samples}");
             assert_eq!(halving.level(samples), level + 1, "{chunk}: {samples}");
@@ -22,7 +22,7 @@ fn every_compared_number_of_samples_has_the_later_half_in_a_level_of_its_own() {
 #[test]
 fn the_nodes_of_a_film_are_compared() {
     let halving = Halving::new(16);
-    let compared: Vec<u64> = (0..200).filter(|&samples| halving.compares(samples)).collect();
+    let compared: Vec<u64> = (0..200).filter(|&samples| halving.largest(samples) == samples).collect();
     assert_eq!(compared, [0, 1, 2, 4, 8, 16, 32, 64, 128]);
 }
 
