@@ -112,12 +112,14 @@ impl Bounds {
 }
 
 /// `x` rounded to f32 towards plus infinity.
+#[inline]
 pub fn round_up(x: f64) -> f32 {
     let near = x as f32;
     if f64::from(near) < x { near.next_up() } else { near }
 }
 
 /// `x` rounded to f32 towards minus infinity.
+#[inline]
 pub fn round_down(x: f64) -> f32 {
     let near = x as f32;
     if f64::from(near) > x { near.next_down() } else { near }

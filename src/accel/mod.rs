@@ -197,6 +197,19 @@ pub trait Kernel: Sync {
 
     /// Whether any of `tree_solids` but `target` is hit at t in (0, t_max), by [`any_in_solid`].
     fn any_solid(&self, ray: &Ray, local: &LocalRay, t_max: f64, target: PrimitiveId) -> bool;
+
+    /// [`Accelerator::intersect`] of a ray with a unit direction: [`front_closest`], for kernels that compile it in their own
+    /// instructions.
+    #[inline]
+    fn closest(&self, ray: &Ray) -> Option<Hit> {
+        front_closest(self, ray)
+    }
+
+    /// [`Accelerator::occluded`] of a ray with a unit direction: [`front_any`].
+    #[inline]
+    fn any(&self, ray: &Ray, t_max: f64, target: PrimitiveId) -> bool {
+        front_any(self, ray, t_max, target)
+    }
 }
 
 /// The hit of a solid if it comes before `best`, else `best`. What is in an instance is asked of the kernel.
@@ -300,10 +313,10 @@ impl<K: Kernel> Accelerator for K {
     #[inline]
     fn intersect(&self, ray: &Ray) -> Option<Hit> {
         if is_unit(ray) {
-            return closest(self, ray);
+            return self.closest(ray);
         }
         let (unit, length) = with_unit_direction(ray)?;
-        closest(self, &unit).map(|hit| Hit { t: (hit.t / length).max(f64::MIN_POSITIVE), ..hit })
+        self.closest(&unit).map(|hit| Hit { t: (hit.t / length).max(f64::MIN_POSITIVE), ..hit })
     }
 
     fn occluded(&self, ray: &Ray, t_max: f64, target: PrimitiveId) -> bool {
@@ -311,14 +324,15 @@ impl<K: Kernel> Accelerator for K {
             return false;
         }
         if is_unit(ray) {
-            return any(self, ray, t_max, target);
+            return self.any(ray, t_max, target);
         }
-        with_unit_direction(ray).is_some_and(|(unit, length)| any(self, &unit, t_max * length, target))
+        with_unit_direction(ray).is_some_and(|(unit, length)| self.any(&unit, t_max * length, target))
     }
 }
 
 /// The closest hit of a ray with a unit direction.
-fn closest<K: Kernel>(kernel: &K, ray: &Ray) -> Option<Hit> {
+#[inline(always)]
+pub fn front_closest<K: Kernel + ?Sized>(kernel: &K, ray: &Ray) -> Option<Hit> {
     let geometry = kernel.geometry();
     let mut best = if geometry.linear_solids.is_empty() { None } else { kernel.closest_linear_solid(ray) };
     if !geometry.tree_solids.is_empty() {
@@ -342,7 +356,8 @@ fn closest<K: Kernel>(kernel: &K, ray: &Ray) -> Option<Hit> {
 }
 
 /// Whether anything but `target` is in the way of a ray with a unit direction.
-fn any<K: Kernel>(kernel: &K, ray: &Ray, t_max: f64, target: PrimitiveId) -> bool {
+#[inline(always)]
+pub fn front_any<K: Kernel + ?Sized>(kernel: &K, ray: &Ray, t_max: f64, target: PrimitiveId) -> bool {
     let geometry = kernel.geometry();
     if !geometry.linear_solids.is_empty() && kernel.any_linear_solid(ray, t_max, target) {
         return true;
@@ -353,10 +368,14 @@ fn any<K: Kernel>(kernel: &K, ray: &Ray, t_max: f64, target: PrimitiveId) -> boo
     {
         return true;
     }
-    geometry.world_spaces().any(|(space, _)| {
-        let local = geometry.localize(space, ray, t_max, target);
-        local.is_some_and(|local| kernel.any_triangle(space, &local))
-    })
+    for (space, _) in geometry.world_spaces() {
+        if let Some(local) = geometry.localize(space, ray, t_max, target)
+            && kernel.any_triangle(space, &local)
+        {
+            return true;
+        }
+    }
+    false
 }
 
 /// For rays among solids, where no triangle is left out.

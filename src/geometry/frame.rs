@@ -57,6 +57,7 @@ impl LocalRay {
     }
 
     /// `t_max` for an f32 kernel: rounded up.
+    #[inline(always)]
     pub fn t_max32(&self) -> f32 {
         round_up(self.t_max)
     }
@@ -85,6 +86,7 @@ impl LocalFrame {
     }
 
     /// From world to local, in f64.
+    #[inline(always)]
     pub fn to_local(&self, p: DVec3) -> DVec3 {
         (p - self.pivot) * self.scale
     }
@@ -108,6 +110,7 @@ impl LocalFrame {
 
     /// A distance a little longer than `t_max`: a hit at exactly `t_max` stays in reach through the roundings between
     /// the two spaces.
+    #[inline(always)]
     pub fn widen(&self, t_max: f64) -> f64 {
         (t_max + self.world_radius) * (1.0 + ROUNDING_SLACK) - self.world_radius
     }

@@ -123,6 +123,7 @@ impl MeshSpace {
     }
 
     /// Object of a triangle, and its index in the mesh.
+    #[inline(always)]
     pub(super) fn triangle_owner(&self, triangle: u32) -> (u32, u32) {
         let after = self.meshes.partition_point(|mesh| mesh.first <= triangle);
         let MeshEntry { object, first, .. } = self.meshes[after - 1];
@@ -130,7 +131,7 @@ impl MeshSpace {
     }
 
     /// The distance of a hit in outer units, from the start of the ray that `ray` was made from.
-    #[inline]
+    #[inline(always)]
     pub(super) fn outer_distance(&self, ray: &LocalRay, hit: &TriangleHit) -> f64 {
         ray.shift + hit.t * self.frame.inverse_scale
     }

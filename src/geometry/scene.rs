@@ -89,6 +89,7 @@ impl Geometry {
     }
 
     /// The spaces of the meshes that lie in the world, with their indices.
+    #[inline(always)]
     pub fn world_spaces(&self) -> impl Iterator<Item = (u32, &MeshSpace)> {
         (self.instanced as u32..).zip(&self.spaces[self.instanced..])
     }
@@ -116,6 +117,7 @@ impl Geometry {
 
     /// The ray in a space of the world, for hits up to the world distance `t_max`, without the triangle `target`; `None`
     /// if it misses everything in there.
+    #[inline(always)]
     pub fn localize(&self, space: u32, ray: &Ray, t_max: f64, target: PrimitiveId) -> Option<LocalRay> {
         let body = PrimitiveId::triangle(space, 0);
         let excluded = [ray.leaving, target].map(|id| id.triangle_beside(body));
@@ -187,6 +189,7 @@ impl Geometry {
     }
 
     /// The hit of the local ray `ray` in a space of the world as a hit of the path's ray.
+    #[inline(always)]
     pub fn world_hit(&self, space: u32, ray: &LocalRay, hit: &TriangleHit) -> Hit {
         let mesh = &self.spaces[space as usize];
         let (object, part) = mesh.triangle_owner(hit.index);

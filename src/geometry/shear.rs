@@ -147,8 +147,10 @@ impl<'r> LazyShear<'r> {
     /// The ray with its shear.
     #[inline(always)]
     pub(crate) fn get(&mut self) -> &ShearedRay<'r> {
-        let ray = self.ray;
-        self.sheared.get_or_insert_with(|| ShearedRay::new(ray))
+        match &mut self.sheared {
+            Some(sheared) => sheared,
+            none => none.insert(ShearedRay::new(self.ray)),
+        }
     }
 }
 

@@ -169,7 +169,10 @@ impl TriangleBlock {
     /// The corners of the triangle in a lane below 8, exactly.
     #[inline(always)]
     pub(crate) fn corners_of(&self, lane: usize) -> [DVec3; 3] {
-        self.corners.map(|c| DVec3::new(c[0][lane].into(), c[1][lane].into(), c[2][lane].into()))
+        // By reference: all lanes would be copied else.
+        let [a, b, c] = &self.corners;
+        let corner = |c: &[[f32; 8]; 3]| DVec3::new(c[0][lane].into(), c[1][lane].into(), c[2][lane].into());
+        [corner(a), corner(b), corner(c)]
     }
 
     /// The corners of the triangle in a lane below 8 as the components of `ray` are ordered.

@@ -29,9 +29,10 @@ impl<'t> FastTriangles<'t> {
     }
 
     /// The best hit, its t, u and v computed in f64.
+    #[inline(always)]
     pub(super) fn hit(&mut self) -> Option<TriangleHit> {
         let Winner { index, leaf, lane } = self.best?;
-        let corners = self.blocks[leaf as usize].corners_of(lane);
+        let corners = self.blocks[leaf as usize].corners_of(lane & 7);
         let (t, u, v) = sheared_plane_hit(self.ray.get(), corners)?;
         Some(TriangleHit { t, index, u, v })
     }
@@ -47,6 +48,10 @@ impl Leaf for FastTriangles<'_> {
     fn closest<L: Lanes>(&mut self, leaf: u32, lanes: L) {
         let block = &self.blocks[leaf as usize];
         let (mut mask, distances) = hits(block, self.ray.get(), self.t, lanes);
+        if mask == 0 {
+            return;
+        }
+        let distances = lanes.to_array(distances);
         while mask != 0 {
             let lane = mask.trailing_zeros() as usize & 7;
             mask &= mask - 1;
@@ -67,6 +72,10 @@ impl Leaf for FastTriangles<'_> {
     fn any<L: Lanes>(&mut self, leaf: u32, lanes: L) -> bool {
         let block = &self.blocks[leaf as usize];
         let (mut mask, distances) = hits(block, self.ray.get(), self.t, lanes);
+        if mask == 0 {
+            return false;
+        }
+        let distances = lanes.to_array(distances);
         while mask != 0 {
             let lane = mask.trailing_zeros() as usize & 7;
             mask &= mask - 1;
@@ -83,7 +92,7 @@ impl Leaf for FastTriangles<'_> {
 /// Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1) 2013, without its second look at edges that
 /// are hit exactly.
 #[inline(always)]
-fn hits<L: Lanes>(block: &TriangleBlock, ray: &ShearedRay, limit: f32, lanes: L) -> (u32, [f32; 8]) {
+fn hits<L: Lanes>(block: &TriangleBlock, ray: &ShearedRay, limit: f32, lanes: L) -> (u32, L::Floats) {
     let Seen { corners: [a, b, c], areas: [u, v, w] } = block.seen(ray, lanes);
     let zero = lanes.splat(0.0);
     let sum = lanes.add(lanes.add(u, v), w);
@@ -93,5 +102,5 @@ fn hits<L: Lanes>(block: &TriangleBlock, ray: &ShearedRay, limit: f32, lanes: L)
     let (least, most) = (lanes.min(lanes.min(u, v), w), lanes.max(lanes.max(u, v), w));
     let inside = lanes.at_most(zero, least) | lanes.at_most(most, zero);
     let beyond = lanes.at_most(lanes.splat(f32::MIN_POSITIVE), distances);
-    (inside & beyond & lanes.at_most(distances, lanes.splat(limit)), lanes.to_array(distances))
+    (inside & beyond & lanes.at_most(distances, lanes.splat(limit)), distances)
 }

@@ -7,6 +7,7 @@
 
 mod build;
 mod fast;
+mod front;
 mod leaf;
 mod node;
 mod presplit;
@@ -241,5 +242,23 @@ impl Kernel for Bvh<'_> {
     fn any_solid(&self, ray: &Ray, local: &LocalRay, t_max: f64, target: PrimitiveId) -> bool {
         let mut leaf = self.solids(ray, local, None, t_max, target);
         self.instructions.any(&self.solid_nodes, &NodeRay::new(local), &mut leaf)
+    }
+
+    #[inline]
+    fn closest(&self, ray: &Ray) -> Option<Hit> {
+        if self.precision == Precision::Fast {
+            self.instructions.front_closest::<true>(self, ray)
+        } else {
+            self.instructions.front_closest::<false>(self, ray)
+        }
+    }
+
+    #[inline]
+    fn any(&self, ray: &Ray, t_max: f64, target: PrimitiveId) -> bool {
+        if self.precision == Precision::Fast {
+            self.instructions.front_any::<true>(self, ray, t_max, target)
+        } else {
+            self.instructions.front_any::<false>(self, ray, t_max, target)
+        }
     }
 }

@@ -14,11 +14,13 @@ use self::avx2::Avx2;
 use self::sse2::Sse2;
 use self::stack::LANE_BITS;
 pub(super) use self::stack::{Entry, Stack};
+use super::Bvh;
+use super::front::Using;
 use super::node::{Node, NodeRay};
 use super::traverse::{self, Leaf};
-use crate::accel::Isa;
+use crate::accel::{Isa, front_any, front_closest};
 use crate::error::{Error, Result};
-use crate::geometry::{Lanes, LinearSolids, Nearest, PrimitiveId, Ray};
+use crate::geometry::{Hit, Lanes, LinearSolids, Nearest, PrimitiveId, Ray};
 #[cfg(feature = "embree")]
 use crate::geometry::{ShearedRay, TriangleBlock, TriangleHit, any_in_lanes, closest_in_lanes};
 
@@ -69,6 +71,39 @@ impl Instructions {
             Isa::Avx2 => unsafe { any_avx2(nodes, ray, leaf) },
             // SAFETY: as above.
             Isa::Avx512 => unsafe { any_avx512(nodes, ray, leaf) },
+        }
+    }
+}
+
+/// The front, with the trees of triangles.
+impl Instructions {
+    /// [`front_closest`] in these instructions.
+    #[inline]
+    pub(super) fn front_closest<const FAST: bool>(self, bvh: &Bvh, ray: &Ray) -> Option<Hit> {
+        match self.0 {
+            Isa::Sse2 => front_closest_sse2::<FAST>(bvh, ray),
+            // SAFETY: `choose` has found these instructions.
+            Isa::Avx2 => unsafe { front_closest_avx2::<FAST>(bvh, ray) },
+            // SAFETY: as above.
+            Isa::Avx512 => unsafe { front_closest_avx512::<FAST>(bvh, ray) },
+        }
+    }
+
+    /// [`front_any`] in these instructions.
+    #[inline]
+    pub(super) fn front_any<const FAST: bool>(
+        self,
+        bvh: &Bvh,
+        ray: &Ray,
+        t_max: f64,
+        target: PrimitiveId,
+    ) -> bool {
+        match self.0 {
+            Isa::Sse2 => front_any_sse2::<FAST>(bvh, ray, t_max, target),
+            // SAFETY: `choose` has found these instructions.
+            Isa::Avx2 => unsafe { front_any_avx2::<FAST>(bvh, ray, t_max, target) },
+            // SAFETY: as above.
+            Isa::Avx512 => unsafe { front_any_avx512::<FAST>(bvh, ray, t_max, target) },
         }
     }
 }
@@ -186,6 +221,40 @@ fn name(isa: Isa) -> &'static str {
         Isa::Avx2 => "AVX2",
         Isa::Avx512 => "AVX-512",
     }
+}
+
+fn front_closest_sse2<const FAST: bool>(bvh: &Bvh, ray: &Ray) -> Option<Hit> {
+    // SAFETY: SSE2 is part of x86-64.
+    front_closest(&Using::<_, FAST> { bvh, lanes: unsafe { Sse2::new() } }, ray)
+}
+
+fn front_any_sse2<const FAST: bool>(bvh: &Bvh, ray: &Ray, t_max: f64, target: PrimitiveId) -> bool {
+    // SAFETY: SSE2 is part of x86-64.
+    front_any(&Using::<_, FAST> { bvh, lanes: unsafe { Sse2::new() } }, ray, t_max, target)
+}
+
+#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+fn front_closest_avx2<const FAST: bool>(bvh: &Bvh, ray: &Ray) -> Option<Hit> {
+    // SAFETY: this function is only called where there is AVX2.
+    front_closest(&Using::<_, FAST> { bvh, lanes: unsafe { Avx2::new() } }, ray)
+}
+
+#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+fn front_any_avx2<const FAST: bool>(bvh: &Bvh, ray: &Ray, t_max: f64, target: PrimitiveId) -> bool {
+    // SAFETY: this function is only called where there is AVX2.
+    front_any(&Using::<_, FAST> { bvh, lanes: unsafe { Avx2::new() } }, ray, t_max, target)
+}
+
+#[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl,avx2,bmi1,bmi2,lzcnt,popcnt")]
+fn front_closest_avx512<const FAST: bool>(bvh: &Bvh, ray: &Ray) -> Option<Hit> {
+    // SAFETY: this function is only called where there is AVX-512.
+    front_closest(&Using::<_, FAST> { bvh, lanes: unsafe { Avx2::new() } }, ray)
+}
+
+#[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl,avx2,bmi1,bmi2,lzcnt,popcnt")]
+fn front_any_avx512<const FAST: bool>(bvh: &Bvh, ray: &Ray, t_max: f64, target: PrimitiveId) -> bool {
+    // SAFETY: this function is only called where there is AVX-512.
+    front_any(&Using::<_, FAST> { bvh, lanes: unsafe { Avx2::new() } }, ray, t_max, target)
 }
 
 // FMA is not enabled: leaves must round every product, and the node test gains nothing from it.
