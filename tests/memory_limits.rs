@@ -23,7 +23,7 @@ fn system(files: &[(&str, &str)]) -> TempDir {
 
 /// Kilobytes that such a machine has.
 fn kilobytes(files: &[(&str, &str)]) -> Option<u64> {
-    let system = system(&[&[MACHINE], files].concat());
+    let system = system(&[&[MACHINE][..], files].concat());
     available_bytes_below(system.path()).map(|bytes| bytes / 1024)
 }
 
@@ -36,7 +36,10 @@ fn without_limits_it_is_what_the_machine_has() {
         ("sys/fs/cgroup/a/memory.max", "max\n"),
         ("sys/fs/cgroup/a/memory.high", "max\n"),
         ("sys/fs/cgroup/a/memory.current", "4096000\n"),
-        ("proc/self/limits", "Max address space         unlimited            unlimited            bytes     \n"),
+        (
+            "proc/self/limits",
+            "Max address space         unlimited            unlimited            bytes     \n",
+        ),
         ("proc/self/status", "VmSize:\t    5000 kB\n"),
     ];
     assert_eq!(kilobytes(&unlimited), Some(20_000));
@@ -48,7 +51,10 @@ fn a_control_group_leaves_its_limit_without_what_is_used_for_good() {
         ("proc/self/cgroup", "0::/a/b\n"),
         ("sys/fs/cgroup/a/b/memory.max", "10240000\n"),
         ("sys/fs/cgroup/a/b/memory.current", "4096000\n"),
-        ("sys/fs/cgroup/a/b/memory.stat", "anon 2048000\ninactive_anon 7\ninactive_file 1024000\nactive_file 5\n"),
+        (
+            "sys/fs/cgroup/a/b/memory.stat",
+            "anon 2048000\ninactive_anon 7\ninactive_file 1024000\nactive_file 5\n",
+        ),
     ];
     assert_eq!(kilobytes(&group), Some(10_000 - (4_000 - 1_000)));
 }
@@ -125,7 +131,10 @@ fn limits_of_the_process_leave_what_it_does_not_use() {
         let limits = limits(addresses, data);
         let files = [
             ("proc/self/limits", limits.as_str()),
-            ("proc/self/status", "Name:\tpathtracer\nVmPeak:\t    9000 kB\nVmSize:\t    5000 kB\nVmData:\t    1000 kB\n"),
+            (
+                "proc/self/status",
+                "Name:\tpathtracer\nVmPeak:\t    9000 kB\nVmSize:\t    5000 kB\nVmData:\t    1000 kB\n",
+            ),
         ];
         assert_eq!(kilobytes(&files), Some(expected), "{addresses}, {data}");
     }

@@ -24,10 +24,12 @@ fn assert_is_light(film: &Film) {
     assert!(film.means().all(|mean| mean.is_finite() && mean.min_element() >= 0.0), "a pixel is no light");
 }
 
-/// One scene; false where it can't be compiled. A failure says which seed it was.
+/// One scene; false where it can't be compiled. A failure says which seed and settings it was.
 fn try_scene(folder: &Path, seed: u64) -> bool {
     catch_unwind(AssertUnwindSafe(|| try_seed(folder, seed))).unwrap_or_else(|panic| {
-        eprintln!("seed {seed} fails");
+        let mut random = Random::new(seed);
+        random_scenes::write(folder, &mut random);
+        eprintln!("seed {seed} fails: {:?}", settings::any(&mut random));
         resume_unwind(panic)
     })
 }
@@ -69,6 +71,22 @@ fn random_scenes_are_rendered_alike_by_both_accelerators_in_parts_and_in_several
     let folder = tempfile::tempdir().expect("a folder");
     let good = (0..60).filter(|&seed| try_scene(folder.path(), seed)).count();
     assert!(good >= 40, "{good} of 60 scenes");
+}
+
+/// Passes double, so they end elsewhere after a render that did not end at a power of two.
+#[test]
+fn chunks_of_any_size_go_on_after_any_number_of_samples() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let text = "Camera: {Position: [0, 0, 0], LookingAt: [5, 0, 0], Fov: 0.3, FocusDistance: 5}\n\
+                Objects:\n  - Object: {Type: Ball, Position: [5, 0, 0], Radius: 1, Material: {Type: Diffuse}}\n";
+    let scene = scene::parse(text, &folder.path().join("scene.yaml")).expect("a valid scene");
+    let world = World::compile(&scene.desc).expect("a world");
+    let subject = Subject { scene: &scene, world: &world, folder: folder.path() };
+    for chunk in [1, 7, 16, 17] {
+        let settings = Settings { chunk, error_estimate: true, ..Settings::new(4, 3, 22, 3) };
+        let whole = subject.render(&settings);
+        (1..=22).for_each(|first| assert_same(&subject.from(first, &settings, &settings), &whole));
+    }
 }
 
 /// Tries seeds from `first` on; how many.
