@@ -37,7 +37,8 @@ fn a_killed_render_that_is_resumed_makes_the_same_file() {
     {
         let (folder, other) = (Folder::new(), Folder::new());
         other.run(&format!("{RENDER} a.exr {options}")).succeeds();
-        render_with_kills(&folder, &format!("{RENDER} a.exr {options} {CHECKPOINT}"));
+        let kills = render_with_kills(&folder, &format!("{RENDER} a.exr {options} {CHECKPOINT}"));
+        println!("TEMP {kills} kills {options}");
         for name in other.names() {
             assert!(folder.read(&name) == other.read(&name), "{name} {options}");
         }
@@ -70,9 +71,15 @@ fn counts(ended: &Ended) -> Vec<serde_json::Value> {
 
 #[test]
 fn more_samples_can_follow_later() {
-    for (first, options) in
-        [(16, ""), (20, ""), (27, ""), (9, "--noise 0.01"), (70, "--noise 0.01"), (18, "--scramble-length 2")]
-    {
+    for (first, options) in [
+        (16, ""),
+        (20, ""),
+        (27, ""),
+        (9, "--noise 0.01"),
+        (70, "--noise 0.01"),
+        (70, "--noise 0.01 --scramble-length 20"),
+        (18, "--scramble-length 2"),
+    ] {
         let (folder, other) = (Folder::new(), Folder::new());
         let all = format!("ball.yaml 40 24 150 4 a.exr {options} --clamp 0.9 --json");
         let expected = other.run(&all);

@@ -115,7 +115,7 @@ fn memory_stays_flat_over_many_random_scenes() {
     let count = try_for(folder.path(), first + warm, time / 4 * 3);
     let after = resident_bytes();
     println!("{} scenes; {before} bytes after {warm} of them, {after} at the end", warm + count);
-    // A leak of one such film (48 x 36 pixels of 3 f64) a scene would be more.
-    let film = 48 * 36 * 24;
+    // A leak of one such film (28 x 20 pixels of 3 f64) a scene would be more.
+    let film = 28 * 20 * 24;
     assert!(after < before + (32 << 20) + count * film / 4, "{before} bytes became {after}");
 }

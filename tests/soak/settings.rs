@@ -7,9 +7,9 @@ use pathtracer::sampling::SamplerKind;
 
 /// Settings of a whole small picture.
 pub(super) fn any(random: &mut Random) -> Settings {
-    let (width, height) = (1 + random.index(48) as u32, 1 + random.index(36) as u32);
+    let (width, height) = (1 + random.index(28) as u32, 1 + random.index(20) as u32);
     // Enough for blocks to stop, where that is soon done.
-    let most = if width * height < 400 { 200 } else { 40 };
+    let most = if width * height < 100 { 200 } else { 40 };
     let bounces = if random.chance(0.1) { 60 } else { 1 + random.index(12) as u32 };
     let settings = Settings {
         precision: Precision::Exact,
