@@ -17,6 +17,10 @@ try() {
 # A container's root may not mount.
 mounts() { folder=$(mktemp -d) && mount -t tmpfs tmpfs "$folder" && umount "$folder" && rmdir "$folder"; }
 try 'root, who may mount' mounts tests/faults/disk_full.sh "$program"
+group=/sys/fs/cgroup/memory
+[ -d $group ] || group=/sys/fs/cgroup
+try 'root, and control groups that limit memory' "mkdir $group/pathtracer-test && rmdir $group/pathtracer-test" \
+    tests/faults/memory.sh "$program"
 try 'a C++ compiler and libopenimageio-dev' 'c++ --version && pkg-config OpenImageIO' tests/faults/shim.sh "$program" 2000
 try 'root, slurm-wlm and munge' '[ "$(id -u)" -eq 0 ] && command -v slurmctld && command -v slurmd && command -v munged' tests/farm/slurm.sh "$program"
 try 'openjd-cli' 'command -v openjd' tests/farm/openjd.sh "$program"

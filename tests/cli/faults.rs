@@ -177,7 +177,7 @@ fn what_is_over_the_limit_of_the_process_is_refused_before_it_is_allocated() {
     let limited = |arguments: &str| {
         // In kilobytes, most of which the libraries and their threads do not need.
         let mut shell = Command::new("sh");
-        shell.args(["-c", r#"ulimit -v 2000000; exec "$0" "$@""#, env!("CARGO_BIN_EXE_pathtracer")]);
+        shell.args(["-c", r#"ulimit -v 1500000; exec "$0" "$@""#, env!("CARGO_BIN_EXE_pathtracer")]);
         shell.args(arguments.split_whitespace()).current_dir(folder.path("."));
         super::Ended::from(shell.output().expect("a shell"))
     };
