@@ -158,10 +158,8 @@ fn regions(settings: &Settings, random: &mut Random) -> Vec<Region> {
 
 /// 0 to `side` in one or two ranges that meet at a multiple of `step`.
 fn cuts(side: u32, step: u32, random: &mut Random) -> Vec<Range<u32>> {
-    match random.index(side.div_ceil(step) as usize) as u32 * step {
-        0 => vec![0..side],
-        cut => vec![0..cut, cut..side],
-    }
+    let cut = random.index(side.div_ceil(step) as usize) as u32 * step;
+    [0..cut, cut..side].into_iter().filter(|range| !range.is_empty()).collect()
 }
 
 /// All chunks, in one or two ranges.
