@@ -1,6 +1,11 @@
 //! Advice about memory, and how much there is.
 #![allow(unsafe_code)]
 
+mod available;
+
+pub(crate) use available::available_bytes;
+pub use available::available_bytes_below;
+
 /// Asks for huge pages for all that a vector has allocated; best before it is filled. A tree is read in no order: with
 /// pages of 4 kB most of the reads in a large one also miss the table of pages.
 ///
@@ -23,11 +28,3 @@ pub(crate) fn advise_huge_pages<T>(memory: &mut Vec<T>) {
 /// Bytes of a huge page on x86-64.
 #[cfg(target_os = "linux")]
 const HUGE_PAGE: usize = 2 << 20;
-
-/// Bytes that can be had without swapping; `None` where the system does not say.
-pub(crate) fn available_bytes() -> Option<u64> {
-    let text = std::fs::read_to_string("/proc/meminfo").ok()?;
-    let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
-    let kilobytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
-    kilobytes.checked_mul(1024)
-}

@@ -26,6 +26,8 @@ mod tile;
 mod view;
 
 pub(crate) use crate::memory::available_bytes;
+#[doc(hidden)]
+pub use crate::memory::available_bytes_below;
 pub use adaptive::NOISE_AFTER;
 pub use estimate::Estimate;
 pub use features::{FAR, FeatureKind, FeaturePlanes};

@@ -87,6 +87,9 @@ mod soak;
 /// What a file of sums may hold, and the memory of a render.
 mod keeping;
 
+/// How much memory there is.
+mod memory_limits;
+
 /// What the fuzzers kept.
 mod corpora;
 

@@ -2,7 +2,7 @@
 
 use super::arguments::{Job, MergeArguments};
 use super::console::say;
-use super::render::{ending, error_bars, write_picture};
+use super::render::{ending, error_bars, missing_errors, write_picture};
 use super::{findings, interrupt};
 use crate::error::Error;
 use crate::output::{Aov, Target};
@@ -38,7 +38,8 @@ pub(super) fn run(arguments: &MergeArguments) -> anyhow::Result<u8> {
         ending(&job, &rendered).iter().for_each(say);
         say(format_args!("{} made of {} parts", image.display(), parts.len()));
     }
-    Ok(0)
+    // The picture is there; but whoever runs many of these looks at how they end.
+    missing_errors(&job, &rendered).map_or(Ok(0), |what| Err(Error::Film(what.into()).into()))
 }
 
 fn no_features() -> &'static str {

@@ -213,7 +213,7 @@ fn unfinished(job: &Job, keeper: &Keeper<'_>, rendered: &Rendered) -> Result<()>
     Ok(())
 }
 
-/// Writes a picture, and the errors of its pixels if they are wanted.
+/// Writes a picture, and the errors of its pixels if they are wanted and known.
 pub(super) fn write_picture(
     target: &Target,
     error_bars: Option<&Destination>,
@@ -232,13 +232,8 @@ pub(super) fn write_picture(
     };
     target.write(&provenance, rendered)?;
     findings::report_cut(output::cut_components(&rendered.film, target.picture().depth()));
-    if let Some(error_bars) = error_bars
-        && !output::write_error_bars(&rendered.film, error_bars)?
-    {
-        say(
-            "warning: no error bars were written: they need 16 samples, none of which may be too large for f32; parts \
-             need --scramble-length 2",
-        );
+    if let Some(error_bars) = error_bars {
+        output::write_error_bars(&rendered.film, error_bars)?;
     }
     Ok(())
 }
@@ -254,8 +249,8 @@ pub(super) fn error_bars(path: &Path) -> Result<Destination> {
 
 /// Says how it ended.
 fn conclude(job: &Job, rendered: &Rendered, seconds: Seconds) {
-    if job.aov.contains(&Aov::Error) && Aov::Error.channels(rendered).is_empty() {
-        say("warning: the picture has no channel of errors: they need 16 samples");
+    if let Some(what) = missing_errors(job, rendered) {
+        say(format_args!("warning: {what}"));
     }
     findings::report(job, rendered);
     if job.quiet {
@@ -275,6 +270,15 @@ fn conclude(job: &Job, rendered: &Rendered, seconds: Seconds) {
         samples(job, rendered),
         rendered.error.as_ref().map_or(String::new(), error),
     ));
+}
+
+/// Why there are no errors of the pixels, if they were asked for.
+pub(super) fn missing_errors(job: &Job, rendered: &Rendered) -> Option<&'static str> {
+    let is_asked = job.error_bars.is_some() || job.aov.contains(&Aov::Error);
+    (is_asked && Aov::Error.channels(rendered).is_empty()).then_some(
+        "no errors of the pixels were written (--error-bars, --aov error): they need 16 samples, none of which may be \
+         too large for f32; parts need --scramble-length 2",
+    )
 }
 
 /// Why it ended before all that was asked for was done.

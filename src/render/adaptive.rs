@@ -123,7 +123,10 @@ impl Adaptive {
     /// Stops the halves of a block by what their others see.
     fn decide(&mut self, number: usize) {
         let counts = self.scrambles.counts(self.samples);
-        let squares = std::array::from_fn(|half| self.square(number, half, &counts));
+        // Long scrambles have no samples yet; then nobody knows.
+        let is_known = !counts.contains(&0);
+        let square = |half| if is_known { self.square(number, half, &counts) } else { f64::INFINITY };
+        let squares = std::array::from_fn(square);
         let (target, samples) = (self.target * self.target, self.samples);
         let block = &mut self.blocks[number];
         block.squares = squares;

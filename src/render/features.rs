@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use std::io;
 
 /// What is seen in every pixel.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct FeaturePlanes {
     /// One a pixel, in the order of the render's frame.
     pixels: Vec<Features>,

@@ -103,7 +103,7 @@ impl Tile<'_> {
                     if let Some(sum) = cell[layout.greys()].get_mut(place.scramble) {
                         *sum += grey(radiance);
                     }
-                    if index + 1 == compared {
+                    if compared.contains(&(index + 1)) {
                         layout.compare(cell, grey(sums[0]));
                     }
                 }
@@ -141,11 +141,13 @@ impl Pass<'_> {
         self.judge(radiance, firefly, counters)
     }
 
-    /// The number of a pixel's samples, reached in this pass, that are compared; 0 for none, and in chunks but the first. Passes
-    /// at most double what there is, so there is at most one.
-    fn compared(&self) -> u64 {
-        let largest = self.halving.largest(self.samples.end);
-        if self.samples.start == self.before && largest > self.samples.start { largest } else { 0 }
+    /// The numbers of a pixel's samples, reached in this pass, that are compared; 0 for none, and in chunks but the first.
+    /// Passes at most double what there is, so there are at most two: a power of two, and the chunk itself.
+    fn compared(&self) -> [u64; 2] {
+        let last = self.halving.largest(self.samples.end);
+        let is_first = self.samples.start == self.before;
+        let reached = |count: u64| if is_first && count > self.samples.start { count } else { 0 };
+        [self.halving.largest(last.saturating_sub(1)), last].map(reached)
     }
 
     /// Above which component a sample of a pixel is a firefly, given the sum of the pixel's samples before it in the chunk.

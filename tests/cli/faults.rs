@@ -163,3 +163,32 @@ fn a_mesh_that_memory_cannot_hold_is_refused_before_it_is_read() {
     file.set_len(1 << 42).expect("a hole");
     folder.run("mesh.yaml 8 6 1 3 a.png").fails(3, "a mesh of 4398.0 GB");
 }
+
+/// Whatever the machine has: the process may not have more.
+#[cfg(target_os = "linux")]
+#[test]
+fn what_is_over_the_limit_of_the_process_is_refused_before_it_is_allocated() {
+    let folder = Folder::new();
+    let scene = fs::read_to_string(folder.path("ball.yaml")).expect("a scene");
+    let mesh =
+        "  - Object: {Type: TriangleMesh, Filepath: a.obj, Position: [5, 0, 0], Material: {Type: Diffuse}}\n";
+    folder.write("mesh.yaml", &format!("{scene}{mesh}"));
+    fs::File::create(folder.path("a.obj")).and_then(|file| file.set_len(2 << 30)).expect("a hole");
+    let limited = |arguments: &str| {
+        // In kilobytes, most of which the libraries and their threads do not need.
+        let mut shell = Command::new("sh");
+        shell.args(["-c", r#"ulimit -v 1500000; exec "$0" "$@""#, env!("CARGO_BIN_EXE_pathtracer")]);
+        shell.args(arguments.split_whitespace()).current_dir(folder.path("."));
+        super::Ended::from(shell.output().expect("a shell"))
+    };
+    // 24 million pixels, each of which takes more than 100 bytes.
+    let film = limited("ball.yaml 6000 4000 64 4 a.exr");
+    film.fails(2, "the film of a picture of 6000 x 4000 pixels");
+    let mesh = limited("mesh.yaml 8 6 1 3 a.png");
+    mesh.fails(3, "a mesh of 2.1 GB that takes about 4.3 GB to read");
+    for (what, ended) in [("the film", film), ("the mesh", mesh)] {
+        let free = ["0.", "1."].iter().any(|start| ended.stderr.contains(&format!("and {start}")));
+        assert!(free, "{what}: {}", ended.stderr);
+    }
+    limited("ball.yaml 8 6 1 3 a.png --threads 1").succeeds();
+}

@@ -63,7 +63,13 @@ fn errors_of_too_few_samples_are_left_out_and_said_so() {
     let folder = Folder::new();
     let ended = folder.run("ball.yaml 8 6 8 4 a.exr --aov error");
     ended.succeeds();
-    assert!(ended.stderr.contains("no channel of errors: they need 16 samples"), "{}", ended.stderr);
+    assert!(
+        ended.stderr.contains(
+            "no errors of the pixels were written (--error-bars, --aov error): they need 16 samples"
+        ),
+        "{}",
+        ended.stderr
+    );
     assert_eq!(channels(&folder, "a.exr").len(), 3);
 }
 

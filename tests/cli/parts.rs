@@ -37,6 +37,18 @@ fn merged_parts_are_the_picture_of_one_render() {
 }
 
 #[test]
+fn a_merge_that_was_asked_for_errors_that_its_parts_do_not_hold_makes_the_picture_and_fails() {
+    let folder = Folder::new();
+    let names = parts(&folder, "", &["--part 0/2", "--part 1/2"]).join(" ");
+    for option in ["--error-bars b.exr", "--aov error"] {
+        let what = "no errors of the pixels were written";
+        folder.run(&format!("merge {names} a.exr {option} -q")).fails(1, what);
+        image::open(folder.path("a.exr")).expect("a picture");
+        assert!(!folder.has("b.exr"));
+    }
+}
+
+#[test]
 fn merged_parts_with_a_noise_target_are_the_picture_of_one_render() {
     for split in [&["--part 1/3", "--part 0/3", "--part 2/3"][..], &["--crop 0,0,16,36", "--crop 16,0,40,36"]]
     {

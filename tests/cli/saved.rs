@@ -4,6 +4,7 @@
 use super::{BALL, Ended, Folder};
 use std::fs;
 use std::process::Stdio;
+use xxhash_rust::xxh3::xxh3_128;
 
 const RENDER: &str = "ball.yaml 40 24 70 4";
 const CHECKPOINT: &str = "--checkpoint a.film --resume a.film --every 100ms -q";
@@ -70,9 +71,15 @@ fn counts(ended: &Ended) -> Vec<serde_json::Value> {
 
 #[test]
 fn more_samples_can_follow_later() {
-    for (first, options) in
-        [(16, ""), (20, ""), (27, ""), (9, "--noise 0.01"), (70, "--noise 0.01"), (18, "--scramble-length 2")]
-    {
+    for (first, options) in [
+        (16, ""),
+        (20, ""),
+        (27, ""),
+        (9, "--noise 0.01"),
+        (70, "--noise 0.01"),
+        (70, "--noise 0.01 --scramble-length 20"),
+        (18, "--scramble-length 2"),
+    ] {
         let (folder, other) = (Folder::new(), Folder::new());
         let all = format!("ball.yaml 40 24 150 4 a.exr {options} --clamp 0.9 --json");
         let expected = other.run(&all);
@@ -100,6 +107,24 @@ fn a_checkpoint_of_anything_else_is_refused_and_the_difference_named() {
     folder.write("other.yaml", &BALL.replace("0.8", "0.7"));
     resumed("other.yaml", "40 24 32 4", "").fails(1, "differs in scene and meshes");
     assert!(!folder.has("b.exr"));
+}
+
+#[test]
+fn a_checkpoint_of_another_version_is_refused_and_both_are_named() {
+    let folder = Folder::new();
+    finished(&folder, 16, "");
+    let mut bytes = folder.read("a.film");
+    let own = env!("CARGO_PKG_VERSION");
+    let words = format!("\"version\":\"{own}\"");
+    let at = bytes.windows(words.len()).position(|window| window == words.as_bytes()).expect("a version");
+    bytes[at + words.len() - 2] = b'x';
+    let checksum = bytes.len() - 16;
+    let (sums, end) = bytes.split_at_mut(checksum);
+    end.copy_from_slice(&xxh3_128(sums).to_le_bytes());
+    fs::write(folder.path("a.film"), bytes).expect("a file");
+    let other = &own[..own.len() - 1];
+    let why = format!("is of version {other}x, not {own}");
+    folder.run(&format!("{RENDER} b.exr --resume a.film")).fails(1, &why);
 }
 
 #[test]

@@ -21,7 +21,7 @@ job=$!
 killed=
 for _ in $(seq 2000); do
     for pid in $(pgrep -x pathtracer); do
-        if tr '\0' ' ' < "/proc/$pid/cmdline" | grep -q "part-2.film --part 2/4"; then
+        if { tr '\0' ' ' < "/proc/$pid/cmdline"; } 2>/dev/null | grep -q "part-2.film --part 2/4"; then
             kill -9 "$pid" && killed=yes
         fi
     done

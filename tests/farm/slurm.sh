@@ -70,7 +70,7 @@ sh job.sh
 killed=
 for _ in $(seq 600); do
     for pid in $(pgrep -x pathtracer); do
-        if tr '\0' ' ' < "/proc/$pid/cmdline" | grep -q "part-3.film --part"; then
+        if { tr '\0' ' ' < "/proc/$pid/cmdline"; } 2>/dev/null | grep -q "part-3.film --part"; then
             kill -9 "$pid" && killed=yes
         fi
     done

@@ -45,6 +45,21 @@ impl Random {
         (self.bits() % count as u64) as usize
     }
 
+    /// Whether something that happens so often, of 1, does.
+    pub(crate) fn chance(&mut self, often: f64) -> bool {
+        self.unit() < often
+    }
+
+    /// One of some.
+    pub(crate) fn pick<T: Copy>(&mut self, items: &[T]) -> T {
+        items[self.index(items.len())]
+    }
+
+    /// A power of ten with an exponent between these.
+    pub(crate) fn power(&mut self, low: f64, high: f64) -> f64 {
+        libm::pow(10.0, self.between(low, high))
+    }
+
     /// Each component in [-1, 1).
     pub(crate) fn in_cube(&mut self) -> DVec3 {
         DVec3::new(self.between(-1.0, 1.0), self.between(-1.0, 1.0), self.between(-1.0, 1.0))
