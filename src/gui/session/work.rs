@@ -141,8 +141,11 @@ fn compile(job: u64, order: Order, last: Option<&Task>) -> Result<Task> {
         editable.put(&mut desc);
         (desc, (!is_edited).then_some(loaded.scene.digest))
     };
-    let mut world = in_pool(&order.settings, || World::compile(&desc))?;
-    let guards = in_pool(&order.settings, || world.guards(&desc, order.settings.width))?;
+    let (mut world, guards) = in_pool(&order.settings, || {
+        let world = World::compile(&desc)?;
+        let guards = world.guards(&desc, order.settings.width)?;
+        Ok((world, guards))
+    })?;
     if let Some(last) = last
         && has_same_shapes(&last.order.editable, editable)
     {
