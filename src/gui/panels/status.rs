@@ -29,7 +29,8 @@ pub(super) fn show(ui: &mut Ui, studio: &mut Studio) {
     let below = if is_narrow && told.is_none() { std::mem::take(&mut ahead) } else { Vec::new() };
     facts.append(&mut ahead);
     ui.horizontal(|ui| {
-        ui.label(stage(&status));
+        let is_reading = studio.document.is_reading();
+        ui.label(if is_reading { "reading the scene".into() } else { stage(&status) });
         if status.is_busy() && status.total > 0 {
             ui.add(ProgressBar::new(share(&status) as f32).desired_width(110.0).show_percentage());
         }
