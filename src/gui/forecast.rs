@@ -60,9 +60,7 @@ pub fn forecasts(
     // With fewer samples, dark pixels have not met their light yet.
     let blocks = blocks.filter(|blocks| blocks.samples >= NOISE_AFTER);
     if let (Some(target), Some(blocks)) = (knobs.noise, blocks) {
-        let [least, most] =
-            samples_to(blocks, target, knobs.samples).map(|each| time(each * all * per_sample));
-        texts.push(format!("final: {} % in every block after {least} to {most}", percent(target)));
+        texts.push(of_target(blocks, target, knobs.samples, |samples| samples * all * per_sample));
     }
     if let (Some(budget), Some(error)) = (knobs.time, outlook.error) {
         let spent = status.seconds * all / pixels(settings.width, settings.height);
@@ -72,6 +70,20 @@ pub fn forecasts(
         texts.push(format!("final: about {}", time(per_sample * knobs.samples as f64 * all)));
     }
     texts
+}
+
+/// When every block will have reached a target, or that not all will; `seconds` of so many samples a pixel.
+fn of_target(blocks: &BlockErrors, target: f64, most: u64, seconds: impl Fn(f64) -> f64) -> String {
+    let limited = samples_to(blocks, target, most);
+    let [least, longest] = limited.map(|samples| time(seconds(samples)));
+    let [may, will] = [0, 1].map(|end| limited[end] == samples_to(blocks, target, 0)[end]);
+    let percent = percent(target);
+    if !may {
+        return format!("final: {percent} % not in every block with {most} samples, after {longest}");
+    }
+    let whether = if will { "" } else { "perhaps " };
+    let when = if least == longest { least } else { format!("{least} to {longest}") };
+    format!("final: {percent} % {whether}in every block after {when}")
 }
 
 /// Between which numbers of samples a pixel, on average, all blocks will have reached a target, if each takes at most `most`

@@ -111,8 +111,8 @@ impl Field {
             },
             Field::Focus => shown(camera.focus_distance),
             Field::Roll => shown(camera.angle),
-            Field::Position(axis) => shown(camera.position[axis]),
-            Field::LookingAt(axis) => shown(camera.looking_at[axis]),
+            Field::Position(axis) => coordinate(camera.position[axis]),
+            Field::LookingAt(axis) => coordinate(camera.looking_at[axis]),
         }
     }
 
@@ -158,6 +158,12 @@ impl Field {
         }
         Ok(())
     }
+}
+
+/// A coordinate, whose field is narrow: what was written as it was, what the mouse made with five digits.
+fn coordinate(x: f64) -> String {
+    let exact = digits(x, 7);
+    if exact.parse() == Ok(x) { exact } else { digits(x, 5) }
 }
 
 /// Whether the numbers of the fields, each of which may be right, can't be together: the field to blame, and the reason.
@@ -271,7 +277,8 @@ impl Form {
         let draft = self.drafts.get(&field);
         let mut text = draft.map_or_else(|| field.read(knobs, camera), |draft| draft.text.clone());
         let is_wrong = self.error(field, knobs).is_some();
-        let edit = TextEdit::singleline(&mut text).id_salt(field).desired_width(width);
+        let hint = if matches!(field, Field::Noise | Field::Time) { "none" } else { "" };
+        let edit = TextEdit::singleline(&mut text).id_salt(field).desired_width(width).hint_text(hint);
         let edit = if is_wrong { edit.text_color(wrong_color(ui.visuals())) } else { edit };
         let mut response = ui.add(edit);
         let is_changed = response.changed() && self.type_text(field, &text, knobs, camera);

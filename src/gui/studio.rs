@@ -170,7 +170,9 @@ impl Studio {
         match self.document.poll() {
             Some(Event::Loaded) => self.take_loaded(before),
             Some(Event::Failed) => {
-                self.say_error("the scene has errors; the picture is that of the last good one".into())
+                let picture = "; the picture is that of the last good one";
+                let picture = if before.is_some() { picture } else { "" };
+                self.say_error(format!("the scene has errors{picture}"));
             }
             None => {}
         }

@@ -6,9 +6,11 @@ use super::digest::Digest;
 use super::files;
 use super::from_file::Part;
 use super::obj::{self, Failure, Fault};
+use super::yaml::node::Node;
 use super::yaml::value::Value;
 use crate::error::{Location, Severity};
 use crate::memory::available_bytes;
+use rayon::prelude::*;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -24,13 +26,38 @@ pub(crate) struct Meshes {
     digests: Vec<Digest>,
     /// The files that were read, and those of materials.
     files: Vec<PathBuf>,
+    /// By canonical path: what was read ahead and not asked for yet.
+    ahead: HashMap<PathBuf, Result<obj::Loaded, Failure>>,
 }
 
 impl Meshes {
     /// The meshes named in the scene file `file`.
     pub(crate) fn beside(file: &Path) -> Meshes {
         let folder = file.parent().unwrap_or(Path::new("")).to_path_buf();
-        Meshes { folder, read: HashMap::new(), parts: HashMap::new(), digests: Vec::new(), files: Vec::new() }
+        Meshes {
+            folder,
+            read: HashMap::new(),
+            parts: HashMap::new(),
+            digests: Vec::new(),
+            files: Vec::new(),
+            ahead: HashMap::new(),
+        }
+    }
+
+    /// Reads the meshes that some objects name all at once, if they are small: of a small file one thread reads most. What
+    /// is wrong is said where the objects are read.
+    pub(crate) fn read_ahead(&mut self, objects: &[Node<'_>]) {
+        let names = objects.iter().filter_map(|object| object.entry("Object")?.entry("Filepath")?.text());
+        let path = |name| files::places(&self.folder, name).into_iter().find(|path| path.is_file());
+        let mut paths: Vec<PathBuf> =
+            names.filter_map(path).filter_map(|path| path.canonicalize().ok()).collect();
+        paths.sort_unstable();
+        paths.dedup();
+        let sizes = paths.iter().map(|path| std::fs::metadata(path).map_or(u64::MAX, |file| file.len()));
+        if sizes.fold(0, u64::saturating_add) <= MOST_AHEAD {
+            let read = paths.into_par_iter().map(|path| (obj::load(&path), path));
+            self.ahead = read.map(|(loaded, path)| (path, loaded)).collect();
+        }
     }
 
     /// Of all files that were read.
@@ -57,7 +84,8 @@ impl Meshes {
         let mesh = match self.read.get(&key) {
             Some(mesh) => mesh.clone(),
             None => {
-                let mesh = read(&path, value, report).map(|(mesh, digest)| {
+                let loaded = self.ahead.remove(&key);
+                let mesh = read(&path, loaded, value, report).map(|(mesh, digest)| {
                     self.digests.push(digest);
                     self.files.push(path.clone());
                     Arc::new(mesh)
@@ -70,6 +98,9 @@ impl Meshes {
     }
 }
 
+/// Bytes of all mesh files of a scene that are read at once.
+const MOST_AHEAD: u64 = 64 << 20;
+
 /// Bytes of memory that reading takes for a byte of a mesh file: its text and the mesh.
 const READ_BYTES: u64 = 2;
 
@@ -77,8 +108,13 @@ fn shown(path: &Path) -> String {
     quote(&path.display().to_string())
 }
 
-/// Reads a mesh and reports what is wrong with it.
-fn read(path: &Path, value: Value<'_>, report: &mut Report) -> Option<(MeshDesc, Digest)> {
+/// Reads a mesh, unless it was read ahead, and reports what is wrong with it.
+fn read(
+    path: &Path,
+    ahead: Option<Result<obj::Loaded, Failure>>,
+    value: Value<'_>,
+    report: &mut Report,
+) -> Option<(MeshDesc, Digest)> {
     if let (Ok(file), Some(available)) = (std::fs::metadata(path), available_bytes())
         && file.len().saturating_mul(READ_BYTES) > available
     {
@@ -93,7 +129,7 @@ fn read(path: &Path, value: Value<'_>, report: &mut Report) -> Option<(MeshDesc,
         value.error(&text, Some("a coarser mesh takes less".to_owned()), report);
         return None;
     }
-    let loaded = match obj::load(path) {
+    let loaded = match ahead.unwrap_or_else(|| obj::load(path)) {
         Ok(loaded) => loaded,
         Err(Failure::Unreadable(reason)) => {
             value.error(&format!("names {}, which cannot be read: {reason}", shown(path)), None, report);

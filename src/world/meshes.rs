@@ -3,6 +3,7 @@
 use crate::geometry::{Instance, MeshPart, MeshSpace};
 use crate::math::{DMat3, DVec3};
 use crate::scene::desc::{Axes, MeshDesc, ObjectDesc, ShapeDesc};
+use rayon::prelude::*;
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -34,8 +35,8 @@ impl Placement {
 
     /// The mesh as it lies in the world.
     pub(super) fn part(&self, object: u32, mesh: &MeshDesc) -> MeshPart {
-        let positions =
-            mesh.positions.iter().map(|&p| self.rotation * (DVec3::from(p) * self.scale) + self.position);
+        let place = |&p| self.rotation * (DVec3::from(p) * self.scale) + self.position;
+        let positions = mesh.positions.par_iter().with_min_len(1024).map(place);
         let triangles = mesh.triangles.iter().map(|&corners| self.winding(corners));
         MeshPart { object, positions: positions.collect(), triangles: triangles.collect() }
     }

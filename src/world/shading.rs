@@ -4,6 +4,7 @@ use super::meshes::Placement;
 use crate::geometry::Hit;
 use crate::math::{DMat3, DVec3};
 use crate::scene::desc::MeshDesc;
+use rayon::prelude::*;
 use std::collections::HashMap;
 
 /// Normals in the coordinates of their files; empty where no mesh of the scene is smooth.
@@ -47,7 +48,8 @@ impl NormalsBuilder {
         let normals = &mut self.normals;
         let mut append = |winding: &dyn Fn([u32; 3]) -> [u32; 3]| {
             let indices = mesh.normal_indices.iter().map(|&corners| winding(corners)).collect();
-            normals.meshes.push(MeshNormals { normals: mesh.normals.iter().map(unit).collect(), indices });
+            let units = mesh.normals.par_iter().with_min_len(1024).map(unit).collect();
+            normals.meshes.push(MeshNormals { normals: units, indices });
             normals.meshes.len() as u32 - 1
         };
         let index = match is_instance {

@@ -1,6 +1,6 @@
 //! What the window costs: prints, and asserts nothing.
 
-use super::panels::window_of;
+use super::panels::{Window, window_of};
 use super::studio::until;
 use super::{load, preview, sample, session};
 use pathtracer::gui::camera_control;
@@ -10,6 +10,7 @@ use pathtracer::gui::studio::Studio;
 use pathtracer::math::Rgb;
 use pathtracer::render::Settings;
 use std::sync::Arc;
+use std::sync::mpsc::channel;
 use std::time::{Duration, Instant};
 
 /// The scenes that are measured.
@@ -87,6 +88,41 @@ fn from_opening_a_scene_and_from_a_change_of_a_material_to_the_first_picture() {
 
 #[test]
 #[ignore = "a measurement"]
+fn from_opening_a_scene_to_its_first_painted_picture() {
+    for name in ALL {
+        let mut painted = Vec::new();
+        for _ in 0..20 {
+            let (waker, woken) = channel();
+            let wake = move || {
+                // A window that is gone wants no frames.
+                let _ = waker.send(());
+            };
+            let studio = Studio::new(Kept::default(), Arc::new(wake));
+            let mut window = window_of(studio, 1.0);
+            let start = Instant::now();
+            window.state_mut().0.open(&sample(name));
+            // The window draws a frame when there is something new, as on the desktop.
+            while window.state().1.canvas.shown().is_none() {
+                woken.recv().expect("a frame to draw");
+                woken.try_iter().count();
+                draw(&mut window);
+            }
+            painted.push(start.elapsed());
+        }
+        print("first painted picture after opening", name, painted);
+    }
+}
+
+/// A frame, with what the real window does before the graphics driver has its turn.
+fn draw(window: &mut Window<'_>) {
+    window.step();
+    let output = window.output();
+    let meshes = window.ctx.tessellate(output.shapes.clone(), output.pixels_per_point);
+    assert!(!meshes.is_empty());
+}
+
+#[test]
+#[ignore = "a measurement"]
 fn a_frame_of_the_window_while_all_cores_render() {
     for name in ["glassBalls", "legacyBalls", "gallery"] {
         let kept = Kept { knobs: Knobs { samples: 1 << 20, ..Knobs::default() }, ..Kept::default() };
@@ -99,13 +135,8 @@ fn a_frame_of_the_window_while_all_cores_render() {
         let times: Vec<Duration> = (0..200)
             .map(|_| {
                 let start = Instant::now();
-                window.step();
-                // What the real window does before the graphics driver has its turn.
-                let output = window.output();
-                let meshes = window.ctx.tessellate(output.shapes.clone(), output.pixels_per_point);
-                let time = start.elapsed();
-                assert!(!meshes.is_empty());
-                time
+                draw(&mut window);
+                start.elapsed()
             })
             .collect();
         print("a frame with its triangles", name, times);

@@ -9,6 +9,7 @@ use egui_kittest::kittest::Queryable;
 use pathtracer::gui::form::wrong_color;
 use pathtracer::gui::settings::Theme;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 use std::sync::Arc;
 
 /// Opens a menu of the bar, and one in it.
@@ -51,6 +52,21 @@ fn a_file_that_is_dropped_is_opened() {
     window.input_mut().dropped_files.push(Arc::new(Dropped(desk.path("other.yaml"))));
     window.run_steps(2);
     wait_for_scene(&mut window, "other.yaml");
+}
+
+#[test]
+fn a_scene_that_takes_long_is_said_to_be_read() {
+    let desk = Desk::new();
+    let mut window = window(&desk);
+    // Reading it takes until somebody writes.
+    let pipe = desk.path("pipe.yaml");
+    let made = Command::new("mkfifo").arg(&pipe).status().expect("mkfifo starts");
+    assert!(made.success());
+    window.state_mut().0.open(&pipe);
+    window.run_steps(2);
+    window.get_by_label("reading the scene");
+    std::fs::write(&pipe, super::BALLS).expect("somebody who reads");
+    wait_for_scene(&mut window, "pipe.yaml");
 }
 
 #[test]

@@ -1,16 +1,17 @@
 use super::{BALLS, Desk, SCENES, load, preview, sample, session, small};
 use crate::support::random::Random;
+use pathtracer::accel::BvhQuality;
 use pathtracer::gui::camera_control;
 use pathtracer::gui::document::Loaded;
 use pathtracer::gui::saving;
-use pathtracer::gui::session::{Frame, Order, Purpose, Stage};
+use pathtracer::gui::session::{Frame, Order, Purpose, Session, Stage};
 use pathtracer::math::Rgb;
 use pathtracer::output::Wanted;
-use pathtracer::render::{AccelKind, Ended, SCRAMBLE_LENGTH, Settings};
+use pathtracer::render::{AccelKind, Ended, SCRAMBLE_LENGTH, Settings, Unwatched, render};
 use pathtracer::sampling::SamplerKind;
 use pathtracer::scene::edit::{self, Editable, SurfaceKind};
 use std::ffi::OsStr;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, OnceLock};
 use std::time::{Duration, Instant};
 
 /// Moves the camera, or changes a colour or the light, where there is one of its own.
@@ -87,6 +88,43 @@ fn two_hundred_previews_with_changes_in_between_have_the_bytes_of_the_command_li
         let expected = desk.by_command_line(name, &frame.settings, frame.samples, "line.png");
         assert!(desk.read("window.png") == expected, "{what}, {} samples", frame.samples);
     }
+}
+
+/// A session with all that it hands over. It stays until the tests end, since its own thread looks at it.
+fn recorded() -> (&'static Session, Arc<Mutex<Vec<Arc<Frame>>>>) {
+    let frames: Arc<Mutex<Vec<Arc<Frame>>>> = Arc::default();
+    let place: Arc<OnceLock<&'static Session>> = Arc::default();
+    let (to, from) = (Arc::clone(&frames), Arc::clone(&place));
+    let session = Session::new(move || {
+        let mut frames = to.lock().expect("no panic");
+        let Some(newest) = from.get().and_then(|session| session.frame()) else { return };
+        if frames.last().is_none_or(|last| !Arc::ptr_eq(last, &newest)) {
+            frames.push(newest);
+        }
+    });
+    (place.get_or_init(|| Box::leak(Box::new(session))), frames)
+}
+
+#[test]
+fn a_preview_of_large_meshes_begins_with_a_tree_that_is_there_soon_and_ends_with_the_command_lines_bytes() {
+    let loaded = load(&sample("objectScene"));
+    let (session, frames) = recorded();
+    let settings = Settings::new(320, 180, 2, 4);
+    session.order(preview(&loaded, &loaded.editable, &settings));
+    assert_eq!(session.wait().stage, Stage::Done(Ended::Complete));
+    let frames = frames.lock().expect("no panic");
+    let made = |frame: &Frame| (frame.is_coarse, frame.settings.accel, frame.settings.bvh);
+    let (first, last) = (&frames[0], &frames[frames.len() - 1]);
+    assert_eq!(made(first), (true, AccelKind::Native, BvhQuality::Fast));
+    assert_eq!(made(last), (false, AccelKind::default(), BvhQuality::Default));
+    // The tree can't be seen in the picture.
+    let plain = Settings { accel: last.settings.accel, bvh: last.settings.bvh, ..first.settings.clone() };
+    let by_other = render(&first.world, &first.editable.camera, &plain, &Unwatched).expect("a picture");
+    assert!(by_other.film.means().eq(first.light.iter().copied()));
+    let desk = Desk::new();
+    saving::write(last, wanted(&desk, "last.png")).expect("a picture that can be written");
+    let scene = loaded.path.to_string_lossy();
+    assert!(desk.read("last.png") == desk.by_command_line(&scene, &last.settings, 2, "line.png"));
 }
 
 #[test]

@@ -260,6 +260,28 @@ fn a_picture_with_channels_has_the_bytes_of_its_command_line() {
     assert!(desk.read("window.exr") == desk.read("line.exr"), "{command}");
 }
 
+/// Tests where the denoiser is found.
+#[test]
+fn a_denoised_picture_and_the_noisy_one_have_the_bytes_of_their_command_line() {
+    let desk = Desk::new();
+    let mut studio = opened(&desk);
+    let knobs = &mut studio.kept.knobs;
+    knobs.image = desk.path("window.png").to_string_lossy().into_owned();
+    knobs.denoise = true;
+    let command = Knobs { image: "line.png".into(), ..knobs.clone() }.command(Path::new("balls.yaml"));
+    studio.render();
+    until(&mut studio, "an end", |studio| !studio.is_rendering_final());
+    if let Stage::Failed(why) = studio.session.status().stage {
+        assert!(why.contains("pip install pyoidn"), "{why}");
+        println!("no denoiser here: nothing is tested");
+        return;
+    }
+    desk.command(&command.split(' ').skip(1).collect::<Vec<_>>());
+    assert!(desk.read("window.png") == desk.read("line.png"), "{command}");
+    assert!(desk.read("window.noisy.png") == desk.read("line.noisy.png"));
+    assert!(desk.read("window.png") != desk.read("window.noisy.png"));
+}
+
 #[test]
 fn a_material_file_of_a_mesh_is_watched() {
     let desk = Desk::new();

@@ -81,7 +81,11 @@ impl<'g> Bvh<'g> {
             options.fault.into_iter().for_each(|fault| tree.spoil(fault));
             tree
         };
-        let triangles = geometry.spaces.iter().map(over).collect();
+        let triangles = match options.quality {
+            // Side by side they are there sooner, and take more memory at once.
+            BvhQuality::Fast => geometry.spaces.par_iter().map(over).collect(),
+            BvhQuality::Default | BvhQuality::Quality => geometry.spaces.iter().map(over).collect(),
+        };
         let solids = solid_tree(geometry);
         // One solid a leaf: the leaf's index is the place in the order.
         let solid_order = solids.order;

@@ -131,7 +131,9 @@ impl Binning {
 
     fn bins_of(&self, prim: &PrimRef) -> [usize; 3] {
         let place = (prim.centroid() - self.origin) * self.scale;
-        [place.x, place.y, place.z].map(|place| (place as i32 as usize).min(self.bins - 1))
+        // Written out: without link-time optimisation a `map` is not inlined.
+        let bin = |place: f32| (place as i32 as usize).min(self.bins - 1);
+        [bin(place.x), bin(place.y), bin(place.z)]
     }
 
     fn fill(&self, prims: &[PrimRef]) -> Bins {

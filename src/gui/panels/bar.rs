@@ -7,7 +7,7 @@ use crate::gui::examples::Example;
 use crate::gui::pick::Tool;
 use crate::gui::settings::Theme;
 use crate::gui::studio::Studio;
-use eframe::egui::{Button, ComboBox, MenuBar, Ui, ViewportCommand};
+use eframe::egui::{Button, ComboBox, MenuBar, Response, Ui, ViewportCommand};
 use std::path::Path;
 
 pub(super) fn show(ui: &mut Ui, studio: &mut Studio, desk: &mut Desk) {
@@ -45,7 +45,7 @@ fn choices(ui: &mut Ui, studio: &mut Studio, desk: &mut Desk) {
 }
 
 fn file_menu(ui: &mut Ui, studio: &mut Studio, desk: &mut Desk) {
-    if ui.button("Open…   Ctrl+O").clicked() {
+    if item(ui, "Open…", "Ctrl+O").clicked() {
         desk.dialogs.open_scene(studio, ui.ctx());
     }
     ui.menu_button("Recent files", |ui| {
@@ -67,13 +67,13 @@ fn file_menu(ui: &mut Ui, studio: &mut Studio, desk: &mut Desk) {
     });
     ui.separator();
     let has_scene = studio.document.loaded.is_some();
-    if ui.add_enabled(has_scene, Button::new("Save scene   Ctrl+S")).clicked() {
+    if ui.add_enabled(has_scene, Button::new("Save scene").shortcut_text("Ctrl+S")).clicked() {
         studio.save_scene(None);
     }
     if ui.add_enabled(has_scene, Button::new("Save scene as…")).clicked() {
         desk.dialogs.save_scene(studio, ui.ctx());
     }
-    if ui.add_enabled(has_scene, Button::new("Save picture…   Ctrl+E")).clicked() {
+    if ui.add_enabled(has_scene, Button::new("Save picture…").shortcut_text("Ctrl+E")).clicked() {
         desk.dialogs.save_picture(studio, ui.ctx());
     }
     let copy = ui.add_enabled(has_scene, Button::new("Copy as command line"));
@@ -83,9 +83,14 @@ fn file_menu(ui: &mut Ui, studio: &mut Studio, desk: &mut Desk) {
         ui.ctx().copy_text(studio.kept.knobs.command(&loaded.path));
     }
     ui.separator();
-    if ui.button("Close   Ctrl+Q").clicked() {
+    if item(ui, "Close", "Ctrl+Q").clicked() {
         ui.ctx().send_viewport_cmd(ViewportCommand::Close);
     }
+}
+
+/// An entry of a menu, and its keys.
+fn item(ui: &mut Ui, text: &str, keys: &str) -> Response {
+    ui.add(Button::new(text).shortcut_text(keys))
 }
 
 /// The one that was clicked.
@@ -112,22 +117,22 @@ fn file_name(path: &Path) -> String {
 }
 
 fn edit_menu(ui: &mut Ui, studio: &mut Studio) {
-    if ui.button("Undo   Ctrl+Z").clicked() {
+    if item(ui, "Undo", "Ctrl+Z").clicked() {
         studio.undo(true);
     }
-    if ui.button("Redo   Ctrl+Y").clicked() {
+    if item(ui, "Redo", "Ctrl+Y").clicked() {
         studio.undo(false);
     }
-    if ui.button("Reset camera   R").clicked() {
+    if item(ui, "Reset camera", "R").clicked() {
         studio.reset_camera();
     }
 }
 
 fn view_menu(ui: &mut Ui, studio: &mut Studio, desk: &mut Desk) {
-    if ui.button("Whole picture   0").clicked() {
+    if item(ui, "Whole picture", "0").clicked() {
         desk.canvas.zoom.fit();
     }
-    if ui.button("Store as A   A").clicked() {
+    if item(ui, "Store as A", "A").clicked() {
         studio.store();
     }
     ui.separator();

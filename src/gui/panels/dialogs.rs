@@ -6,8 +6,8 @@ use crate::gui::examples::is_scene;
 use crate::gui::studio::Studio;
 use crate::picture::{Depth, Format};
 use eframe::egui::{
-    Align2, Button, ComboBox, Context, Grid, Id, Key, Modal, ScrollArea, TextEdit, Ui, ViewportCommand,
-    Window,
+    Align2, Button, ComboBox, Context, Grid, Id, Key, Label, Modal, ScrollArea, TextEdit, Ui,
+    ViewportCommand, Window,
 };
 use std::env;
 use std::fs;
@@ -118,10 +118,10 @@ impl Choice {
             if ui.button("Up").clicked() {
                 entered = self.listing.folder.parent().map(Path::to_path_buf);
             }
-            ui.label(self.listing.folder.display().to_string());
             if self.coming.is_some() {
                 ui.spinner();
             }
+            ui.add(Label::new(self.listing.folder.display().to_string()).truncate());
         });
         ScrollArea::vertical().max_height(260.0).auto_shrink([false, false]).show(ui, |ui| {
             self.show_listing(ui, &mut chosen, &mut entered);
@@ -258,7 +258,7 @@ impl Dialogs {
     fn show_choice(&mut self, ctx: &Context, studio: &mut Studio) {
         let Some(choice) = &mut self.choice else { return };
         let mut is_open = true;
-        let purpose = choice.purpose;
+        let (purpose, was_new) = (choice.purpose, choice.is_new);
         let shown = Window::new(purpose.title())
             .open(&mut is_open)
             .collapsible(false)
@@ -268,7 +268,8 @@ impl Dialogs {
             .show(ctx, |ui| choice.show(ui));
         let chosen = shown.and_then(|shown| shown.inner.flatten());
         let depth = choice.depth;
-        let is_left = ctx.input(|input| input.key_pressed(Key::Escape));
+        // Pressed before the dialog was there, it was for something else.
+        let is_left = !was_new && ctx.input(|input| input.key_pressed(Key::Escape));
         if let Some(path) = &chosen {
             match purpose {
                 Purpose::Open => studio.open(path),
@@ -286,8 +287,11 @@ impl Dialogs {
         if self.is_help_open && ctx.input(|input| input.key_pressed(Key::Escape)) {
             self.is_help_open = false;
         }
+        let room = ctx.content_rect();
         let window = Window::new("Mouse and keys").open(&mut self.is_help_open).collapsible(false);
-        window.pivot(Align2::CENTER_CENTER).default_pos(ctx.content_rect().center()).show(ctx, |ui| {
+        // All of it where there is place, without what is around it.
+        let window = window.default_height((room.height() - 80.0).max(100.0));
+        window.pivot(Align2::CENTER_CENTER).default_pos(room.center()).show(ctx, |ui| {
             ScrollArea::vertical().show(ui, |ui| {
                 Grid::new("help").num_columns(2).striped(true).show(ui, |ui| {
                     for (keys, meaning) in HELP {

@@ -2,11 +2,12 @@
 
 use super::follow::Follow;
 use super::{Order, Purpose, Shared, Stage, Status};
+use crate::accel::BvhQuality;
 use crate::error::{Diagnostic, Error, Result};
 use crate::geometry::Geometry;
 use crate::output::{Provenance, Rescue, Target, Wanted};
 use crate::picture::Destination;
-use crate::render::{Ended, Origin, Prepared, Recipe, Rendered, Settings, View, in_pool};
+use crate::render::{AccelKind, Ended, Origin, Prepared, Recipe, Rendered, Settings, View, in_pool};
 use crate::scene::edit::{self, Editable};
 use crate::scene::{self, Digest};
 use crate::world::World;
@@ -16,6 +17,8 @@ use std::sync::Arc;
 const FIRST_PICTURE: f64 = 0.03;
 /// The fewest pixels of a picture that comes first.
 const FEWEST_PIXELS: f64 = 2000.0;
+/// So many triangles are worth a tree for the first pictures alone.
+const MANY_TRIANGLES: usize = 10_000;
 /// Samples a second that are expected before any are taken.
 const EXPECTED_RATE: f64 = 300_000.0;
 
@@ -28,26 +31,53 @@ pub(super) struct Task {
     digest: Option<Digest>,
     /// Warnings of the world, as it was when its shapes or materials last changed.
     guards: Vec<Diagnostic>,
+    /// Whether its smaller pictures have been shown.
+    is_seen: bool,
 }
 
 /// Takes orders until the end.
 pub(super) fn serve(shared: &Shared) {
     let mut rate = EXPECTED_RATE;
-    let Some(mut task) = next_task(shared, None) else { return };
-    loop {
+    let mut next = next_task(shared, None);
+    while let Some(task) = next {
         let geometry: Arc<Geometry> = Arc::clone(&task.world.geometry);
-        let next = match Prepared::build(&geometry, &task.order.settings) {
-            Ok(prepared) => serve_with(shared, &prepared, task, &mut rate),
-            Err(error) => {
-                shared.tell(task.job, |status| status.stage = Stage::Failed(error.to_string()));
-                next_task(shared, Some(&task))
-            }
-        };
-        match next {
-            Some(next) => task = next,
-            None => return,
-        }
+        next = serve_shapes(shared, &geometry, task, &mut rate);
     }
+}
+
+/// Takes orders over some shapes; the first over others.
+fn serve_shapes(shared: &Shared, geometry: &Geometry, mut task: Task, rate: &mut f64) -> Option<Task> {
+    if let Err(error) = hurry(shared, geometry, &mut task, rate) {
+        return failed(shared, &task, error);
+    }
+    if !shared.is_newest(task.job) {
+        // Nobody waits for its accelerator.
+        return next_task(shared, Some(&task));
+    }
+    match Prepared::build(geometry, &task.order.settings) {
+        Ok(prepared) => serve_with(shared, &prepared, task, rate),
+        Err(error) => failed(shared, &task, error),
+    }
+}
+
+/// The order can't be rendered; the next one.
+fn failed(shared: &Shared, task: &Task, error: Error) -> Option<Task> {
+    shared.tell(task.job, |status| status.stage = Stage::Failed(error.to_string()));
+    next_task(shared, Some(task))
+}
+
+/// Shows the smaller pictures of a preview by a tree that is built soonest, where the accelerator that is asked for takes long.
+fn hurry(shared: &Shared, geometry: &Geometry, task: &mut Task, rate: &mut f64) -> Result<()> {
+    let is_preview = matches!(task.order.purpose, Purpose::Preview);
+    if !is_preview || geometry.triangle_count() < MANY_TRIANGLES {
+        return Ok(());
+    }
+    let settings =
+        Settings { accel: AccelKind::Native, bvh: BvhQuality::Fast, ..task.order.settings.clone() };
+    let prepared = Prepared::build(geometry, &settings)?;
+    task.is_seen = run_coarse(shared, &prepared, task, &settings, rate)? != Ended::Cancelled;
+    shared.tell(task.job, |status| status.stage = Stage::Building);
+    Ok(())
 }
 
 /// Takes orders while the accelerator fits; the first that needs another one.
@@ -98,7 +128,7 @@ fn compile(job: u64, order: Order, last: Option<&Task>) -> Result<Task> {
     {
         // Not asked again while the camera moves: that is a look at every triangle.
         let (world, guards) = (Arc::clone(&last.world), last.guards.clone());
-        return Ok(Task { job, order, world, digest: None, guards });
+        return Ok(Task { job, order, world, digest: None, guards, is_seen: false });
     }
     let is_edited = **editable != loaded.editable;
     let (desc, digest) = if is_final && is_edited {
@@ -111,14 +141,17 @@ fn compile(job: u64, order: Order, last: Option<&Task>) -> Result<Task> {
         editable.put(&mut desc);
         (desc, (!is_edited).then_some(loaded.scene.digest))
     };
-    let mut world = in_pool(&order.settings, || World::compile(&desc))?;
-    let guards = in_pool(&order.settings, || world.guards(&desc, order.settings.width))?;
+    let (mut world, guards) = in_pool(&order.settings, || {
+        let world = World::compile(&desc)?;
+        let guards = world.guards(&desc, order.settings.width)?;
+        Ok((world, guards))
+    })?;
     if let Some(last) = last
         && has_same_shapes(&last.order.editable, editable)
     {
         world.geometry = Arc::clone(&last.world.geometry);
     }
-    Ok(Task { job, order, world: Arc::new(world), digest, guards })
+    Ok(Task { job, order, world: Arc::new(world), digest, guards, is_seen: false })
 }
 
 /// Whether two states differ in their cameras at most.
@@ -142,14 +175,8 @@ fn run(shared: &Shared, prepared: &Prepared<'_>, task: &Task, rate: &mut f64) ->
     let target = match &task.order.purpose {
         Purpose::Final(wanted) => Some((wanted, target(shared, task, wanted)?)),
         Purpose::Preview => {
-            for settings in coarser(full, *rate) {
-                let follow = Follow::new(shared, task, prepared, &settings, true, None);
-                let rendered =
-                    prepared.render(&task.world, &task.order.editable.camera, &settings, &follow)?;
-                if rendered.ended == Ended::Cancelled {
-                    return Ok(Ended::Cancelled);
-                }
-                learn(rate, &rendered);
+            if !task.is_seen && run_coarse(shared, prepared, task, full, rate)? == Ended::Cancelled {
+                return Ok(Ended::Cancelled);
             }
             None
         }
@@ -173,6 +200,25 @@ fn run(shared: &Shared, prepared: &Prepared<'_>, task: &Task, rate: &mut f64) ->
         shared.tell(task.job, |status| status.written = Some(target.picture().path().to_path_buf()));
     }
     Ok(rendered.ended)
+}
+
+/// Renders the smaller pictures of a preview.
+fn run_coarse(
+    shared: &Shared,
+    prepared: &Prepared<'_>,
+    task: &Task,
+    full: &Settings,
+    rate: &mut f64,
+) -> Result<Ended> {
+    for settings in coarser(full, *rate) {
+        let follow = Follow::new(shared, task, prepared, &settings, true, None);
+        let rendered = prepared.render(&task.world, &task.order.editable.camera, &settings, &follow)?;
+        if rendered.ended == Ended::Cancelled {
+            return Ok(Ended::Cancelled);
+        }
+        learn(rate, &rendered);
+    }
+    Ok(Ended::Complete)
 }
 
 /// The place of a final picture.

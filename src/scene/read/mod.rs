@@ -78,6 +78,7 @@ fn objects(list: Value<'_>, context: &mut Context<'_>) -> Option<Vec<ObjectDesc>
             elsewhere: None,
         });
     }
+    context.meshes.read_ahead(items);
     let read = items.iter().enumerate().map(|(index, item)| object::read(list.item(index, item), context));
     // Not `collect::<Option<_>>`, which would stop at the first error.
     let objects: Vec<Option<Vec<ObjectDesc>>> = read.collect();

@@ -64,8 +64,10 @@ fn meshes<'d>(world: &World, desc: &'d SceneDesc) -> impl Iterator<Item = Placed
     world.geometry.world_spaces().flat_map(|(_, space)| {
         space.mesh_ranges().filter_map(|(mesh, triangles)| {
             let &MeshEntry { object, extent: size, rounding: error, .. } = mesh;
-            let corners = triangles.flat_map(|triangle| space.corners(triangle));
-            let local = corners.fold(Bounds::EMPTY, Bounds::with_point);
+            let around =
+                |triangle| space.corners(triangle).into_iter().fold(Bounds::EMPTY, Bounds::with_point);
+            let each = triangles.into_par_iter().with_min_len(4096).map(around);
+            let local = each.reduce(|| Bounds::EMPTY, Bounds::union);
             let bounds =
                 Bounds { min: space.frame.to_world(local.min), max: space.frame.to_world(local.max) };
             let desc = desc.objects.get(object as usize)?;
