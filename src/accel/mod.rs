@@ -80,7 +80,8 @@ pub enum BvhQuality {
     /// Built soon, traced fast.
     #[default]
     Default,
-    /// Large triangles in pieces: a little larger, built later; traced faster where walls and beams are.
+    /// Large triangles in pieces: a little larger, built later; traced faster where
+    /// walls and beams lie slanting, slower where they stand along the axes.
     Quality,
 }
 
