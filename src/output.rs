@@ -1,7 +1,6 @@
 //! A film becomes a picture: exposure, curve, range, and what the file says about itself.
 
 mod aov;
-mod command;
 mod provenance;
 mod rescue;
 mod same_file;
@@ -10,8 +9,8 @@ mod target;
 mod text_file;
 
 pub use crate::picture::{quantize, srgb_encode};
+pub use crate::words::{shell, shell_line};
 pub use aov::Aov;
-pub use command::{shell, shell_line};
 pub use provenance::{PREFIX, Provenance, arguments};
 pub use rescue::{FILM_EXTENSION, Rescue};
 pub use same_file::{same_file, whole_path};

@@ -181,7 +181,7 @@ fn too_little_memory_is_an_error_that_names_what_is_large() {
     let estimate = Estimate::new(&desc, &settings, false);
     estimate.check_against(estimate.bytes()).expect("enough");
     let error = estimate.check_against(estimate.bytes() - 1).expect_err("too little").to_string();
-    assert!(error.contains("trees over the meshes 0.2 GB, meshes 0.1 GB; coarser meshes"), "{error}");
+    assert!(error.contains("trees over the meshes 160 MB, meshes 84 MB; coarser meshes"), "{error}");
     let large = Estimate::new(&desc, &Settings { features: true, ..Settings::new(8000, 8000, 16, 4) }, true);
     let error = large.check_against(1 << 30).expect_err("too little").to_string();
     assert!(error.contains("the film") && error.contains("the denoiser"), "{error}");

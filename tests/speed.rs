@@ -2,6 +2,8 @@
 //! One thread; accelerators and precisions take turns, medians of all rounds.
 
 #[cfg(feature = "embree")]
+mod alone;
+#[cfg(feature = "embree")]
 mod bare;
 
 use crate::support::meshes;
@@ -114,30 +116,6 @@ fn nanoseconds_a_ray() {
         for ((name, _), times) in all.iter().zip(&times) {
             println!("{name:14} closest {:6.0} ns  any {:6.0} ns", median(times, 0), median(times, 1));
         }
-    }
-}
-
-/// What the front costs that all accelerators share: Embree's own calls beside them, on the sphere alone.
-#[cfg(feature = "embree")]
-#[test]
-#[ignore = "a measurement"]
-fn embree_alone() {
-    let rays = chords();
-    let mesh = noisy_sphere();
-    let geometry = geometry(false);
-    let bare = [("robust", true), ("fast", false)]
-        .map(|(name, is_robust)| (name, bare::Bare::new(&mesh, is_robust)));
-    let all = accelerators(&geometry);
-    let mut times = vec![Vec::new(); bare.len() + all.len()];
-    for _ in 0..ROUNDS {
-        let alone = bare.iter().map(|(_, bare)| bare.measure(&rays));
-        let fronted = all.iter().map(|(_, accelerator)| measure(accelerator.as_ref(), &rays));
-        alone.chain(fronted).zip(&mut times).for_each(|(time, times)| times.push(time));
-    }
-    let names =
-        bare.iter().map(|(name, _)| format!("bare {name}")).chain(all.iter().map(|(name, _)| name.clone()));
-    for (name, times) in names.zip(&times) {
-        println!("{name:14} closest {:6.0} ns  any {:6.0} ns", median(times, 0), median(times, 1));
     }
 }
 

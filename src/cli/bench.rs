@@ -14,6 +14,7 @@ use crate::study::machine::Machine;
 use crate::study::meshes::Family;
 use crate::study::plot::Plot;
 use crate::study::table::{Figure, Table, counted, csv, grouped, short};
+use crate::words::bytes;
 use serde::Serialize;
 use std::io::{self, Write as _};
 
@@ -23,6 +24,9 @@ pub(super) fn run(job: &BenchJob) -> anyhow::Result<u8> {
         return super::scaling::run(job, options);
     }
     // Whatever can be known to fail fails before the work.
+    if let Subject::Mesh(path) | Subject::Scene(path) = &job.subject {
+        studied::keep([path], job.csv.iter().chain(&job.plots))?;
+    }
     let table = job.csv.as_deref().map(TextFile::new).transpose()?;
     let plots = job.plots.iter().map(|path| PlotFile::new(path)).collect::<Result<Vec<PlotFile>>>()?;
     let machine = Machine::here(job.options.isa, job.options.threads)?;
@@ -90,10 +94,10 @@ fn check_memory(sizes: &[usize]) -> Result<()> {
     let largest = sizes.iter().copied().max().unwrap_or(0);
     match available_bytes() {
         Some(available) if bench::memory_bytes(largest) > available => Err(Error::Usage(format!(
-            "meshes of {} need up to {:.1} GB of memory, and {:.1} GB are free: end the range of --triangles earlier",
+            "meshes of {} need up to {} of memory, and {} are free: end the range of --triangles earlier",
             counted(largest as u64, "triangle"),
-            bench::memory_bytes(largest) as f64 / 1e9,
-            available as f64 / 1e9
+            bytes(bench::memory_bytes(largest)),
+            bytes(available)
         ))),
         _ => Ok(()),
     }

@@ -5,6 +5,7 @@ use crate::error::{Diagnostic, Error, Result, Severity};
 use crate::geometry::MeshSpace;
 use crate::render::{Settings, film_bytes};
 use crate::scene;
+use crate::words::bytes;
 use crate::world::World;
 use std::fmt::Write as _;
 use std::io::{self, Write as _};
@@ -42,14 +43,14 @@ fn report(path: &Path) -> Result<String> {
         describe::counts(&scene.desc).into_iter().map(|(name, count)| format!("{count} {name}")).collect();
     let contents = if counts.is_empty() { "no objects".into() } else { counts.join(", ") };
     let triangles = describe::triangles(&scene.desc);
-    let picture = megabytes(film_bytes(&Settings::new(width, height, samples, 1)));
-    let memory = megabytes(world_bytes(&world) as u64);
+    let picture = bytes(film_bytes(&Settings::new(width, height, samples, 1)));
+    let memory = bytes(world_bytes(&world) as u64);
     let lines = [
         format!("{}: {}", path.display(), verdict(&warnings)),
         format!("  contains: {contents}; {triangles} triangles in meshes"),
         format!("  requires: {}", world.requires),
         format!(
-            "  memory:   about {memory} MB, and {picture} MB for {width} x {height} pixels at {samples} samples"
+            "  memory:   about {memory}, and {picture} for {width} x {height} pixels at {samples} samples"
         ),
     ];
     let _ = write!(text, "{}", lines.join("\n"));
@@ -88,8 +89,4 @@ fn world_bytes(world: &World) -> usize {
     geometry.spaces.iter().map(MeshSpace::bytes).sum::<usize>()
         + geometry.triangle_count() * ACCEL_BYTES
         + size_of_val(geometry.solids.as_slice())
-}
-
-fn megabytes(bytes: u64) -> String {
-    format!("{:.1}", bytes as f64 / 1e6)
 }

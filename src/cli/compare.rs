@@ -22,6 +22,7 @@ pub(super) const DIFFERENT: u8 = 4;
 
 /// Compares; returns the exit code.
 pub(super) fn run(job: &CompareJob) -> anyhow::Result<u8> {
+    studied::keep([&job.scene], &job.csv)?;
     let file = job.csv.as_deref().map(TextFile::new).transpose()?;
     let (scene, world) = studied::load(&job.scene, job.options.recording.width, job.quiet)?;
     let tell = |doing: &str| {

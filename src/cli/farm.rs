@@ -180,8 +180,9 @@ fn script(farm: &Farm) -> Result<String> {
         farm.job.settings.threads.map(|threads| format!(" --cpus-per-task={threads}")).unwrap_or_default();
     Ok(format!(
         "#!/bin/sh
-# {parts} parts and the merge, for Slurm. A part that is killed is requeued and goes on from its last checkpoint; to run
-# this again makes only what is missing.
+# {parts} parts and the merge, for Slurm. A part whose node fails, or whose place another job takes, is requeued and goes on
+# from its last checkpoint. One that dies otherwise fails, and the merge is cancelled; to run this again makes only what is
+# missing.
 set -e
 parts=$(sbatch --parsable --job-name=pathtracer --array=0-{last} --requeue --signal=B:TERM@60{threads} <<'EOF'
 #!/bin/sh

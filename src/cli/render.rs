@@ -158,7 +158,7 @@ impl Subject {
     fn read(job: &Job, output: &Output) -> Result<Subject> {
         let (scene, load) = timed(|| in_pool(&job.settings, || scene::load(&job.scene)));
         let scene = scene?;
-        if let Some(path) = scene.files.iter().find(|path| output.replaces(path)) {
+        if let Some(path) = scene.files.iter().chain([&job.scene]).find(|path| output.replaces(path)) {
             let path = path.display();
             return Err(Error::Usage(format!(
                 "{path} belongs to the scene: choose another name for what is written"

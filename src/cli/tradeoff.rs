@@ -20,6 +20,8 @@ use std::time::Instant;
 /// Measures; returns the exit code.
 pub(super) fn run(job: &TradeoffJob) -> anyhow::Result<u8> {
     // Whatever can be known to fail fails before the work.
+    let written = job.csv.iter().chain(&job.plots).chain(&job.report);
+    studied::keep([&job.scene].into_iter().chain(&job.reference), written)?;
     let table = job.csv.as_deref().map(TextFile::new).transpose()?;
     let plots = job.plots.iter().map(|path| PlotFile::new(path)).collect::<Result<Vec<PlotFile>>>()?;
     let page = job.report.as_deref().map(page_file).transpose()?;

@@ -2,8 +2,9 @@
 
 use super::recipe::Recipe;
 use crate::film::Region;
+use crate::words::shell_line;
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// A part.
 pub(super) struct Listed<'p> {
@@ -22,14 +23,19 @@ pub(super) fn problems(whole: &Recipe, parts: &[Listed<'_>]) -> Vec<String> {
     }
     let mut problems = Vec::new();
     for (region, group) in &mut groups {
-        problems.extend(chunk_problems(whole, *region, group));
+        problems.extend(chunk_problems(whole, *region, group, parts));
     }
-    problems.extend(pixel_problems(whole, &groups));
+    problems.extend(pixel_problems(whole, &groups, parts));
     problems
 }
 
 /// Of the parts with the same pixels.
-fn chunk_problems(whole: &Recipe, region: Region, group: &mut [&Listed<'_>]) -> Vec<String> {
+fn chunk_problems(
+    whole: &Recipe,
+    region: Region,
+    group: &mut [&Listed<'_>],
+    all: &[Listed<'_>],
+) -> Vec<String> {
     let total = whole.settings().chunk_range().end;
     let range = |part: &Listed<'_>| part.recipe.chunks().unwrap_or([0, total]);
     group.sort_by_key(|part| range(part));
@@ -46,20 +52,24 @@ fn chunk_problems(whole: &Recipe, region: Region, group: &mut [&Listed<'_>]) -> 
             ));
         }
         if start > done {
-            problems.push(missing(whole, region, Some([done, start])));
+            problems.push(missing(whole, region, Some([done, start]), all));
         }
         if end > done {
             (done, before) = (end, Some(*part));
         }
     }
     if done < total {
-        problems.push(missing(whole, region, Some([done, total])));
+        problems.push(missing(whole, region, Some([done, total]), all));
     }
     problems
 }
 
 /// Of regions.
-fn pixel_problems(whole: &Recipe, groups: &BTreeMap<Region, Vec<&Listed<'_>>>) -> Vec<String> {
+fn pixel_problems(
+    whole: &Recipe,
+    groups: &BTreeMap<Region, Vec<&Listed<'_>>>,
+    all: &[Listed<'_>],
+) -> Vec<String> {
     let (width, height) = (whole.width, whole.height);
     let paths: Vec<&Path> = groups.values().filter_map(|group| Some(group.first()?.path)).collect();
     let mut owners = vec![u32::MAX; width as usize * height as usize];
@@ -78,12 +88,12 @@ fn pixel_problems(whole: &Recipe, groups: &BTreeMap<Region, Vec<&Listed<'_>>>) -
     }
     for region in missing_parts(groups, &owners, width, height) {
         region.pixels(width, height).for_each(|pixel| owners[pixel] = 0);
-        problems.push(missing(whole, region, None));
+        problems.push(missing(whole, region, None, all));
     }
     while problems.len() < MOST_NAMED
         && let Some(crop) = first_gap(&mut owners, width, height)
     {
-        problems.push(missing(whole, crop, None));
+        problems.push(missing(whole, crop, None, all));
     }
     problems
 }
@@ -124,17 +134,41 @@ fn twice(a: &Path, b: &Path, what: &str) -> String {
 }
 
 /// What is missing, and the command that makes it.
-fn missing(whole: &Recipe, region: Region, chunks: Option<[u64; 2]>) -> String {
+fn missing(whole: &Recipe, region: Region, chunks: Option<[u64; 2]>, others: &[Listed<'_>]) -> String {
     let all = whole.settings().chunk_range();
     let chunks = chunks.filter(|&[start, end]| [start, end] != [all.start, all.end]);
     let recipe = whole.with_part(region, chunks);
+    let what = chunks.map_or(region.to_string(), |[start, end]| format!("{region}, chunks {start}..{end}"));
+    let path = like_others(region, chunks, others).unwrap_or_else(|| {
+        let beside = others.first().and_then(|other| other.path.parent()).unwrap_or(Path::new(""));
+        beside.join(name(region, chunks))
+    });
+    let words = recipe.arguments(&path.to_string_lossy());
+    format!("{what} is missing; made by: {}", shell_line(["pathtracer".to_owned()].iter().chain(&words)))
+}
+
+fn name(region: Region, chunks: Option<[u64; 2]>) -> String {
     let name = match region {
         Region::All => "part".to_owned(),
         Region::Crop { left, top, right, bottom } => format!("crop-{left}-{top}-{right}-{bottom}"),
         Region::Part { index, .. } => format!("part-{index}"),
     };
-    let name = chunks.map_or(name.clone(), |[start, end]| format!("{name}-{start}-{end}"));
-    let what = chunks.map_or(region.to_string(), |[start, end]| format!("{region}, chunks {start}..{end}"));
-    let words: Vec<String> = recipe.arguments(&format!("{name}.film"));
-    format!("{what} is missing; made by: pathtracer {}", words.join(" "))
+    chunks.map_or(format!("{name}.film"), |[start, end]| format!("{name}-{start}-{end}.film"))
+}
+
+/// Where parts are numbered, and another one's name ends with its number: that name with this one's number, unless it is that
+/// of yet another one.
+fn like_others(region: Region, chunks: Option<[u64; 2]>, others: &[Listed<'_>]) -> Option<PathBuf> {
+    let (Region::Part { index, .. }, None) = (region, chunks) else { return None };
+    let others_are_not = |path: &Path| others.iter().all(|other| other.path != path);
+    others.iter().find_map(|other| {
+        let Region::Part { index: number, .. } = other.recipe.region() else { return None };
+        let (stem, extension) = (other.path.file_stem()?.to_str()?, other.path.extension()?.to_str()?);
+        let start = stem.trim_end_matches(|c: char| c.is_ascii_digit());
+        let digits = &stem[start.len()..];
+        let is_number = other.recipe.chunks().is_none() && digits.parse() == Ok(number);
+        let name = format!("{start}{index:0width$}.{extension}", width = digits.len());
+        let path = other.path.with_file_name(name);
+        (is_number && others_are_not(&path)).then_some(path)
+    })
 }

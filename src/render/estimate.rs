@@ -5,6 +5,7 @@ use crate::error::{Error, Result};
 use crate::integrator::Features;
 use crate::memory::available_bytes;
 use crate::scene::desc::{MeshDesc, SceneDesc, ShapeDesc};
+use crate::words;
 use crate::world::{environment_map_bytes, texture_bytes};
 use std::collections::HashSet;
 use std::sync::Arc;
@@ -77,14 +78,13 @@ impl Estimate {
         }
         let mut parts = self.parts.clone();
         parts.sort_by_key(|(_, bytes, _)| std::cmp::Reverse(*bytes));
-        let gigabytes = |bytes: u64| format!("{:.1} GB", bytes as f64 / 1e9);
         let named = parts.iter().filter(|(_, bytes, _)| *bytes >= self.bytes() / 100);
         let named: Vec<String> =
-            named.map(|(name, bytes, _)| format!("{name} {}", gigabytes(*bytes))).collect();
+            named.map(|(name, bytes, _)| format!("{name} {}", words::bytes(*bytes))).collect();
         Err(Error::Usage(format!(
             "the render needs about {} of memory, and {} are free: {}; {}",
-            gigabytes(self.bytes()),
-            gigabytes(available),
+            words::bytes(self.bytes()),
+            words::bytes(available),
             named.join(", "),
             parts[0].2
         )))

@@ -8,6 +8,7 @@ use crate::integrator::Features;
 use crate::math::Rgb;
 use crate::memory::available_bytes;
 use crate::sampling::SCRAMBLES;
+use crate::words::bytes;
 
 /// The most bytes that the film of the render's region and its picture take at once. Without a limit of samples, 65,536 are reckoned with.
 pub fn film_bytes(settings: &Settings) -> u64 {
@@ -18,7 +19,7 @@ pub fn film_bytes(settings: &Settings) -> u64 {
     // Of one scramble there are deviations.
     let greys = |count: usize| (size_of::<f32>() * count) as u64;
     let only = |samples: u64| settings.scrambles().only(0..samples.max(1)).is_some();
-    let bytes = |samples: u64| match Layout::new(settings, 0) {
+    let cell = |samples: u64| match Layout::new(settings, 0) {
         Layout::Plain(_) if !only(samples) => radiance + greys(SCRAMBLES + 1),
         Layout::Plain(_) => radiance + greys(2),
         Layout::Scrambled => radiance + greys(SCRAMBLES),
@@ -26,7 +27,7 @@ pub fn film_bytes(settings: &Settings) -> u64 {
     };
     let nodes = Film::most_nodes(samples.div_ceil(chunk));
     let film: u64 =
-        (0..nodes).map(|node| bytes(chunk.saturating_mul(1 << node).min(samples.max(chunk)))).sum();
+        (0..nodes).map(|node| cell(chunk.saturating_mul(1 << node).min(samples.max(chunk)))).sum();
     // Beside it the chunk under way and its last complete pass, and what blocks know of themselves; afterwards the encoded picture (24 bytes a pixel for EXR).
     let under_way = Layout::new(settings, 0).stride() * size_of::<f64>();
     let planes = if settings.noise.is_some() { 3 } else { 2 };
@@ -71,14 +72,10 @@ fn needed_bytes(settings: &Settings) -> u64 {
 
 fn too_large(settings: &Settings, available: Option<u64>) -> Error {
     let Settings { width, height, samples, .. } = *settings;
-    let needed = gigabytes(needed_bytes(settings));
-    let available = available.map_or("less".into(), gigabytes);
+    let needed = bytes(needed_bytes(settings));
+    let available = available.map_or("fewer bytes".into(), bytes);
     Error::Usage(format!(
-        "the film of a picture of {width} x {height} pixels with {samples} samples needs {needed} GB of memory, and \
-         {available} GB are free: make the picture smaller, or render it in parts (--part)"
+        "the film of a picture of {width} x {height} pixels with {samples} samples needs {needed} of memory, and \
+         {available} are free: make the picture smaller, or render it in parts (--part)"
     ))
-}
-
-fn gigabytes(bytes: u64) -> String {
-    format!("{:.1}", bytes as f64 / 1e9)
 }

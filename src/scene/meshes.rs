@@ -10,6 +10,7 @@ use super::yaml::node::Node;
 use super::yaml::value::Value;
 use crate::error::{Location, Severity};
 use crate::memory::available_bytes;
+use crate::words::bytes;
 use rayon::prelude::*;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -118,13 +119,12 @@ fn read(
     if let (Ok(file), Some(available)) = (std::fs::metadata(path), available_bytes())
         && file.len().saturating_mul(READ_BYTES) > available
     {
-        let gigabytes = |bytes: u64| bytes as f64 / 1e9;
         let text = format!(
-            "names {}, a mesh of {:.1} GB that takes about {:.1} GB to read, and {:.1} GB of memory are free",
+            "names {}, a mesh of {} that takes about {} to read, and {} of memory are free",
             shown(path),
-            gigabytes(file.len()),
-            gigabytes(file.len().saturating_mul(READ_BYTES)),
-            gigabytes(available)
+            bytes(file.len()),
+            bytes(file.len().saturating_mul(READ_BYTES)),
+            bytes(available)
         );
         value.error(&text, Some("a coarser mesh takes less".to_owned()), report);
         return None;

@@ -1,7 +1,7 @@
 //! Of triangles at the same distance, the one with the lowest index is hit.
 
 use pathtracer::accel::{Accelerator, Precision};
-use pathtracer::geometry::{Geometry, MeshPart, Ray};
+use pathtracer::geometry::{Geometry, MeshPart, PrimitiveId, Ray};
 use pathtracer::math::DVec3;
 
 use super::every_isa;
@@ -43,5 +43,24 @@ fn a_triangle_that_the_ray_leaves_gives_way_to_its_copy() {
         let first = kernel.intersect(&ray).unwrap();
         let second = kernel.intersect(&Ray { leaving: first.primitive, ..ray }).unwrap();
         assert_eq!((first.object, second.object), (0, 1));
+    }
+}
+
+#[test]
+fn a_ray_that_leaves_one_of_equal_triangles_hits_none_of_them() {
+    let mut random = Random::new(42);
+    let geometry = copies(20);
+    for precision in Precision::ALL {
+        for kernel in every_isa(&geometry, precision) {
+            for _ in 0..500 {
+                let target = DVec3::new(random.between(-0.2, 0.2), random.between(-0.2, 0.2), 0.2);
+                let origin = random.direction() * 3.0;
+                let ray = Ray::new(origin, (target - origin).normalize());
+                let Some(hit) = kernel.intersect(&ray) else { continue };
+                let next = geometry.surface(&ray, &hit).leave(random.direction());
+                assert_eq!(kernel.intersect(&next), None, "{precision:?}");
+                assert!(!kernel.occluded(&next, f64::INFINITY, PrimitiveId::NONE), "{precision:?}");
+            }
+        }
     }
 }

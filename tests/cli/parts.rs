@@ -263,3 +263,29 @@ fn parts_that_cannot_be_are_refused() {
     folder.run("merge a.film").fails(2, "merge needs part files");
     assert_eq!(folder.names(), ["ball.yaml"]);
 }
+
+/// Names with blanks and quotes; the missing one's name is like those of the others.
+#[cfg(unix)]
+#[test]
+fn the_command_for_a_missing_part_can_be_pasted_into_a_shell_and_completes_the_same_merge() {
+    let folder = Folder::new();
+    fs::create_dir(folder.path("my part's")).expect("a folder");
+    fs::copy(folder.path("ball.yaml"), folder.path("my ball's.yaml")).expect("a copy");
+    let pathtracer = format!("'{}'", env!("CARGO_BIN_EXE_pathtracer"));
+    let shell = |words: &str| {
+        let mut command = std::process::Command::new("sh");
+        command.args(["-c", words]).current_dir(folder.path(""));
+        super::Ended::from(command.output().expect("a shell"))
+    };
+    let render = format!("{pathtracer} \"my ball's.yaml\" 40 36 2 1");
+    for part in [0, 2] {
+        shell(&format!("{render} \"my part's/room-0{part}.film\" --part {part}/3 -q")).succeeds();
+    }
+    let merge = format!("{pathtracer} merge \"my part's\"/room-*.film a.exr -q");
+    let ended = shell(&merge);
+    let (_, command) = ended.stderr.split_once("made by: pathtracer ").expect("a command");
+    shell(&format!("{pathtracer} {}", command.trim())).succeeds();
+    shell(&merge).succeeds();
+    shell(&format!("{render} whole.exr -q")).succeeds();
+    assert!(folder.read("a.exr") == folder.read("whole.exr"));
+}

@@ -124,3 +124,25 @@ fn no_escape_codes_reach_a_pipe() {
         assert!(!(ended.stdout + &ended.stderr).contains('\x1b'), "{arguments}");
     }
 }
+
+#[test]
+fn what_is_read_is_not_written_over() {
+    let folder = Folder::new();
+    let scene = folder.read("ball.yaml");
+    for name in ["ball.png", "ball.exr"] {
+        std::fs::write(folder.path(name), &scene).expect("a copy");
+    }
+    for arguments in [
+        "ball.png 8 8 1 1 ball.png",
+        "ball.exr 8 8 1 1 a.png --error-bars ./ball.exr",
+        #[cfg(feature = "embree")]
+        "compare ball.png --csv ball.png",
+        "bench ball.png --csv ball.png",
+        "bench ball.png --plot ./ball.png",
+        "tradeoff ball.png --csv ball.png",
+        "tradeoff ball.png --plot ball.png",
+    ] {
+        folder.run(arguments).fails(2, "choose another name for what is written");
+        assert!(folder.read("ball.png") == scene && folder.read("ball.exr") == scene, "{arguments}");
+    }
+}

@@ -2,11 +2,9 @@
 
 use embree_sys::*;
 use pathtracer::geometry::{MeshPart, Ray};
-use std::hint::black_box;
 use std::ptr;
-use std::time::Instant;
 
-/// A scene of one mesh, static and of high build quality.
+/// A scene of one mesh, static and of default build quality.
 pub(super) struct Bare {
     device: RTCDevice,
     scene: RTCScene,
@@ -41,39 +39,34 @@ impl Bare {
                 vertices,
             );
             rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, i, 0, 12, faces);
-            rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
+            rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_MEDIUM);
             rtcCommitGeometry(geometry);
             rtcAttachGeometry(scene, geometry);
             rtcReleaseGeometry(geometry);
             rtcSetSceneFlags(scene, flags);
-            rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
+            rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
             rtcCommitScene(scene);
             assert_eq!(rtcGetDeviceError(device), RTC_ERROR_NONE);
             Bare { device, scene, _corners: corners, _triangles: triangles }
         }
     }
 
-    /// Nanoseconds a ray for the closest and for any hit.
-    pub(super) fn measure(&self, rays: &[Ray]) -> [f64; 2] {
-        let rays: Vec<RTCRay> = rays.iter().map(in_f32).collect();
-        let per_ray = |start: Instant| start.elapsed().as_secs_f64() * 1e9 / rays.len() as f64;
+    /// Asks for the closest hit of every ray, or for any hit; how many are hit.
+    pub(super) fn trace(&self, rays: &[RTCRay], asks_any: bool) -> u64 {
         let mut query = Query::new(());
-        let start = Instant::now();
-        for &ray in &rays {
+        let mut is_hit = |&ray: &RTCRay| {
+            if asks_any {
+                let mut ray = ray;
+                // SAFETY: the scene is committed and has no callbacks, and the ray is finite.
+                unsafe { occluded1(self.scene, &mut query, &mut ray) };
+                return ray.tfar < 0.0;
+            }
             let mut rayhit = RTCRayHit { ray, hit: no_hit() };
-            // SAFETY: the scene is committed and has no callbacks, and the ray is finite.
-            unsafe { intersect1(self.scene, &mut query, &mut rayhit) };
-            black_box(rayhit);
-        }
-        let closest = per_ray(start);
-        let start = Instant::now();
-        for &ray in &rays {
-            let mut ray = ray;
             // SAFETY: as above.
-            unsafe { occluded1(self.scene, &mut query, &mut ray) };
-            black_box(ray);
-        }
-        [closest, per_ray(start)]
+            unsafe { intersect1(self.scene, &mut query, &mut rayhit) };
+            rayhit.hit.geomID != no_hit().geomID
+        };
+        rays.iter().map(|ray| u64::from(is_hit(ray))).sum()
     }
 }
 
@@ -87,7 +80,8 @@ impl Drop for Bare {
     }
 }
 
-fn in_f32(ray: &Ray) -> RTCRay {
+/// A ray that ends at `t_max`, which may be infinite.
+pub(super) fn in_f32(ray: &Ray, t_max: f64) -> RTCRay {
     let [origin, direction] = [ray.origin, ray.direction].map(|v| v.to_array().map(|x| x as f32));
     RTCRay {
         org_x: origin[0],
@@ -96,7 +90,7 @@ fn in_f32(ray: &Ray) -> RTCRay {
         dir_x: direction[0],
         dir_y: direction[1],
         dir_z: direction[2],
-        tfar: f32::INFINITY,
+        tfar: t_max as f32,
         mask: u32::MAX,
         ..Default::default()
     }

@@ -4,6 +4,7 @@ use super::traverse::Leaf;
 use crate::geometry::{
     Lanes, LazyShear, LocalRay, Seen, ShearedRay, TriangleBlock, TriangleHit, sheared_plane_hit,
 };
+use crate::math::DVec3;
 
 /// Blocks decided in f32. Rays may slip through edges; neighbours do not agree on them.
 pub(super) struct FastTriangles<'t> {
@@ -57,7 +58,10 @@ impl Leaf for FastTriangles<'_> {
             mask &= mask - 1;
             let (t, index) = (distances[lane], block.lane_index(lane));
             let tie = t == self.t && self.best.is_none_or(|best| index < best.index);
-            if (t < self.t || tie) && !self.ray.local().excludes(index) {
+            if (t < self.t || tie)
+                && !self.ray.local().excludes(index)
+                && is_ahead(t, self.ray.get(), block, lane)
+            {
                 (self.t, self.best) = (t, Some(Winner { index, leaf, lane }));
             }
         }
@@ -79,12 +83,32 @@ impl Leaf for FastTriangles<'_> {
         while mask != 0 {
             let lane = mask.trailing_zeros() as usize & 7;
             mask &= mask - 1;
-            if distances[lane] < self.t && !self.ray.local().excludes(block.lane_index(lane)) {
+            let t = distances[lane];
+            if t < self.t
+                && !self.ray.local().excludes(block.lane_index(lane))
+                && is_ahead(t, self.ray.get(), block, lane)
+            {
                 return true;
             }
         }
         false
     }
+}
+
+/// Up to here f32 can't tell what is ahead of the start of a ray: local coordinates are below 16 in size, so that depths are
+/// wrong by some 2^-20, and distances by at most a few times that where a triangle is not seen edge-on.
+const NEAR: f32 = 1.0 / 65_536.0;
+
+/// Whether the hit of a lane lies ahead of the start. A face may lie on the one that the ray leaves; both would shade each
+/// other.
+#[inline(always)]
+fn is_ahead(t: f32, ray: &ShearedRay, block: &TriangleBlock, lane: usize) -> bool {
+    t > NEAR || is_ahead_in_f64(ray, block.corners_of(lane))
+}
+
+#[cold]
+fn is_ahead_in_f64(ray: &ShearedRay, corners: [DVec3; 3]) -> bool {
+    sheared_plane_hit(ray, corners).is_some_and(|(t, ..)| t > 0.0)
 }
 
 /// A bit for every lane, from the lowest on, that is hit at a distance in (0, `limit`]; and the distances.

@@ -13,6 +13,7 @@ pub(super) const MAX_DEPTH: usize = super::build::SAH_DEPTH + 11;
 
 /// A child: a node or a leaf, by its index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(transparent)]
 pub(super) struct Child(u32);
 
 impl Child {

@@ -10,6 +10,7 @@ use crate::error::{Error, Result};
 use crate::geometry::{LocalRay, MeshSpace};
 use crate::math::round_up;
 use crate::memory::available_bytes;
+use crate::words::bytes;
 use embree_sys::*;
 use std::ffi::{CStr, CString, c_char, c_void};
 use std::marker::PhantomData;
@@ -141,8 +142,8 @@ impl Device {
         let Some(Failure { code, text }) = failure else { return Ok(()) };
         let more = match code {
             RTC_ERROR_OUT_OF_MEMORY => format!(
-                "; it may take {:.1} GB. Coarser meshes or files that several objects show take less, and so does `--accel native`",
-                self.memory.most as f64 / 1e9
+                "; it may take {}. Coarser meshes or files that several objects show take less, and so does `--accel native`",
+                bytes(self.memory.most.unsigned_abs())
             ),
             _ => String::new(),
         };

@@ -1,7 +1,8 @@
 //! The node test in SSE2, AVX2 and AVX-512, chosen at run time. All `unsafe` of the tree is in this folder.
 //!
 //! A whole traversal is compiled for each instruction set: functions with `#[target_feature]` are not inlined into
-//! callers without it, so the choice is made once a ray, at the entry points below.
+//! callers without it, so the choice is made at the entry points below: once for
+//! all triangles of the world, and again for solids and instances.
 #![allow(unsafe_code)]
 
 mod avx2;
@@ -139,6 +140,8 @@ impl Instructions {
     }
 }
 
+// Nothing below is contracted to FMA: leaves must round every product, and the node test gains nothing from it. So AVX2 is
+// enabled without it, and where AVX-512 brings it, the compiler does not contract what is written as two operations.
 #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
 fn closest_abreast_avx2(solids: &LinearSolids, ray: &Ray) -> Nearest {
     // SAFETY: this function is only called where there is AVX2.
@@ -257,7 +260,6 @@ fn front_any_avx512<const FAST: bool>(bvh: &Bvh, ray: &Ray, t_max: f64, target: 
     front_any(&Using::<_, FAST> { bvh, lanes: unsafe { Avx2::new() } }, ray, t_max, target)
 }
 
-// FMA is not enabled: leaves must round every product, and the node test gains nothing from it.
 #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
 fn closest_avx2<L: Leaf>(nodes: &[Node], ray: &NodeRay, leaf: &mut L) {
     // SAFETY: this function is only called where there is AVX2.
