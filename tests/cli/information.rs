@@ -104,3 +104,18 @@ fn quiet_prints_nothing() {
     ended.succeeds();
     assert_eq!(ended.stderr + &ended.stdout, "");
 }
+
+#[test]
+fn a_part_and_a_checkpoint_say_what_they_are() {
+    let folder = Folder::new();
+    folder.run("ball.yaml 40 36 2 1 a.film --part 1/2 --seed 7 -q").succeeds();
+    let told = folder.run("info a.film").stdout;
+    let again = "made again by: pathtracer ball.yaml 40 36 2 1 a.film --part 1/2 --seed 7";
+    assert!(told.starts_with("a.film: part 1/2 of ball.yaml, 40 x 36 pixels, 2 samples; "), "{told}");
+    assert!(told.contains("pathtracer merge PART... IMAGE") && told.trim_end().ends_with(again), "{told}");
+    folder.run("ball.yaml 40 36 2 1 a.png --checkpoint b.film -q").succeeds();
+    let told = folder.run("info b.film").stdout;
+    let goes_on = "goes on by: pathtracer ball.yaml 40 36 2 1 IMAGE --resume b.film";
+    assert!(told.starts_with("b.film: a checkpoint of ball.yaml, 40 x 36 pixels, 2 samples; "), "{told}");
+    assert!(told.trim_end().ends_with(goes_on), "{told}");
+}
