@@ -18,7 +18,7 @@ pub fn counted(count: u64, word: &str) -> String {
     format!("{} {word}{}", grouped(count), if count == 1 { "" } else { "s" })
 }
 
-/// So many bytes in the unit that suits them: `1.2 GB`, `340 MB`, `12 kB`.
+/// So many bytes in the unit that suits them: `1.2 GB`, `340 MB`, `12.0 kB`.
 pub(crate) fn bytes(count: u64) -> String {
     match count {
         1_000_000_000.. => format!("{:.1} GB", count as f64 / 1e9),

@@ -80,8 +80,8 @@ pub enum BvhQuality {
     /// Built soon, traced fast.
     #[default]
     Default,
-    /// Large triangles in pieces: a little larger, built later; traced faster where
-    /// walls and beams lie slanting, slower where they stand along the axes.
+    /// Large triangles in pieces: a little larger, built later; traced faster where walls and beams lie
+    /// slanting, slower where they stand along the axes.
     Quality,
 }
 
@@ -199,14 +199,14 @@ pub trait Kernel: Sync {
     /// Whether any of `tree_solids` but `target` is hit at t in (0, t_max), by [`any_in_solid`].
     fn any_solid(&self, ray: &Ray, local: &LocalRay, t_max: f64, target: PrimitiveId) -> bool;
 
-    /// [`Accelerator::intersect`] of a ray with a unit direction: [`front_closest`], for kernels that compile it in their own
-    /// instructions.
+    /// [`Accelerator::intersect`] of a finite ray with a unit direction: [`front_closest`], which a kernel may compile in its
+    /// own instructions, but not change.
     #[inline]
     fn closest(&self, ray: &Ray) -> Option<Hit> {
         front_closest(self, ray)
     }
 
-    /// [`Accelerator::occluded`] of a ray with a unit direction: [`front_any`].
+    /// [`Accelerator::occluded`] of a finite ray with a unit direction and a `t_max` above 0: [`front_any`], likewise.
     #[inline]
     fn any(&self, ray: &Ray, t_max: f64, target: PrimitiveId) -> bool {
         front_any(self, ray, t_max, target)
@@ -369,6 +369,7 @@ pub fn front_any<K: Kernel + ?Sized>(kernel: &K, ray: &Ray, t_max: f64, target: 
     {
         return true;
     }
+    // A loop, since closures are not inlined into other instructions for certain.
     for (space, _) in geometry.world_spaces() {
         if let Some(local) = geometry.localize(space, ray, t_max, target)
             && kernel.any_triangle(space, &local)

@@ -70,7 +70,7 @@ const USAGE: &str = "pathtracer [OPTIONS] SCENE WIDTH HEIGHT SAMPLES BOUNCES IMA
     \x20      pathtracer bench [OPTIONS] [SCENE | OBJ]\n\
     \x20      pathtracer tradeoff [OPTIONS] SCENE\n\
     \x20      pathtracer diff [OPTIONS] PICTURE REFERENCE\n\
-    \x20      pathtracer info PICTURE\n\
+    \x20      pathtracer info FILE\n\
     \x20      pathtracer merge [OPTIONS] PART... IMAGE\n\
     \x20      pathtracer farm export|slurm --parts N [OPTIONS] SCENE WIDTH HEIGHT SAMPLES BOUNCES IMAGE\n\
     \x20      pathtracer completions bash|zsh|fish\n\
@@ -111,11 +111,11 @@ pub(super) enum Command {
     #[command(subcommand)]
     Farm(FarmCommand),
     /// Say how a picture was made, and the command that makes it again
-    #[command(override_usage = "pathtracer info PICTURE")]
+    #[command(override_usage = "pathtracer info FILE")]
     Info {
-        /// A picture
-        #[arg(value_name = "PICTURE")]
-        picture: PathBuf,
+        /// A picture, a part or a checkpoint
+        #[arg(value_name = "FILE")]
+        file: PathBuf,
     },
     /// Print the completions of a shell
     #[command(override_usage = "pathtracer completions bash|zsh|fish")]

@@ -1,4 +1,4 @@
-//! `pathtracer info PICTURE`: how it was made, and the command that makes it again; also of checkpoints and parts.
+//! `pathtracer info FILE`: how a picture, part or checkpoint was made, and the command that makes it again.
 
 use super::console::printable;
 use crate::output::{self, shell_line};
@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 use std::io::{self, Write as _};
 use std::path::Path;
 
-/// Prints what a picture says about itself; returns the exit code.
+/// Prints what a file says about itself; returns the exit code.
 pub(super) fn run(picture: &Path) -> anyhow::Result<u8> {
     if FilmFile::kind_of(picture).is_some() {
         // A reader that has gone away does not change the answer.

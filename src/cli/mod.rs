@@ -50,7 +50,7 @@ pub fn run(arguments: &[OsString], window: &Window) -> anyhow::Result<u8> {
         Some(Command::Diff(arguments)) => diff::run(&arguments),
         Some(Command::Merge(arguments)) => merge::run(&arguments),
         Some(Command::Farm(command)) => farm::run(command),
-        Some(Command::Info { picture }) => info::run(&picture),
+        Some(Command::Info { file }) => info::run(&file),
         Some(Command::Completions { shell }) => manual::completions(shell),
         Some(Command::Man) => manual::page(),
         None if arguments.len() == 1 => open(window, None),

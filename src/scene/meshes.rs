@@ -55,7 +55,8 @@ impl Meshes {
         paths.sort_unstable();
         paths.dedup();
         let sizes = paths.iter().map(|path| std::fs::metadata(path).map_or(u64::MAX, |file| file.len()));
-        if sizes.fold(0, u64::saturating_add) <= MOST_AHEAD {
+        let free = available_bytes().map_or(u64::MAX, |bytes| bytes / READ_BYTES);
+        if sizes.fold(0, u64::saturating_add) <= MOST_AHEAD.min(free) {
             let read = paths.into_par_iter().map(|path| (obj::load(&path), path));
             self.ahead = read.map(|(loaded, path)| (path, loaded)).collect();
         }

@@ -95,8 +95,9 @@ impl Leaf for FastTriangles<'_> {
     }
 }
 
-/// Up to here f32 can't tell what is ahead of the start of a ray: local coordinates are below 16 in size, so that depths are
-/// wrong by some 2^-20, and distances by at most a few times that where a triangle is not seen edge-on.
+/// Up to here f32 can't tell what is ahead of the start of a ray: the start is within 8 of the local origin
+/// ([`crate::geometry::LocalFrame::localize`]), which leaves depths wrong by up to some 2^-19, and distances by a few times
+/// that where a triangle is not seen edge-on.
 const NEAR: f32 = 1.0 / 65_536.0;
 
 /// Whether the hit of a lane lies ahead of the start. A face may lie on the one that the ray leaves; both would shade each

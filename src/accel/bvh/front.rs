@@ -10,8 +10,9 @@ use crate::geometry::{Geometry, Hit, LocalRay, PrimitiveId, Ray, TriangleHit};
 
 /// A [`Bvh`] in the instructions of `lanes`, at [`crate::accel::Precision::Fast`] or not.
 ///
-/// Everything about triangles is inlined into the entry points of [`super::simd`]: the ray and its hit stay in registers,
-/// where calls between instruction sets would hand them over in memory.
+/// Everything about the triangles of the world is inlined into the entry points of [`super::simd`]: the ray and its hit stay
+/// in registers, where calls between instruction sets would hand them over in memory. Solids, and the triangles of
+/// instances among them, are left to the [`Bvh`].
 pub(super) struct Using<'b, S, const FAST: bool> {
     pub(super) bvh: &'b Bvh<'b>,
     pub(super) lanes: S,

@@ -2,8 +2,9 @@
 //!
 //! A tree for every space of triangles, in blocks of up to eight a leaf, and one for the solids, one a leaf. All share the
 //! builder (`build`), the node (`node`) and the traversal (`traverse`); only the leaves differ (`leaf`,
-//! `fast`). A ray's whole way through the triangles of the world is compiled for each instruction set (`front`). The boxes and the node test are conservative, the shared leaf decides: so hits are those of
-//! [`super::brute_force::BruteForce`], bit by bit, in every instruction set.
+//! `fast`). A ray's whole way through the triangles of the world is compiled for each instruction set (`front`). The boxes
+//! and the node test are conservative, the shared leaf decides: so hits are those of [`super::brute_force::BruteForce`],
+//! bit by bit, in every instruction set.
 
 mod build;
 mod fast;

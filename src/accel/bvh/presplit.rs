@@ -3,8 +3,8 @@
 //! After Karras and Aila, "Fast Parallel Construction of High-Quality Bounding Volume Hierarchies", HPG 2013, section 4:
 //! triangles get pieces by how much of their box is empty, and are cut where coarse planes of one common grid go
 //! through them, so that neighbours are cut alike. A piece only has a box; the leaf still holds the whole triangle, and the
-//! decision about it is the same from every piece. Walls and beams
-//! that lie slanting gain, whose boxes are mostly empty; scans and what stands along the axes do not.
+//! decision about it is the same from every piece. Walls and beams that lie
+//! slanting gain, whose boxes are mostly empty; scans and what stands along the axes do not.
 
 use rayon::prelude::*;
 

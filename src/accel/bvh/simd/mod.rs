@@ -1,8 +1,8 @@
 //! The node test in SSE2, AVX2 and AVX-512, chosen at run time. All `unsafe` of the tree is in this folder.
 //!
 //! A whole traversal is compiled for each instruction set: functions with `#[target_feature]` are not inlined into
-//! callers without it, so the choice is made at the entry points below: once for
-//! all triangles of the world, and again for solids and instances.
+//! callers without it, so the choice is made at the entry points below: once for all triangles of the world, and again
+//! for solids and instances.
 #![allow(unsafe_code)]
 
 mod avx2;
